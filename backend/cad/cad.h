@@ -1,0 +1,90 @@
+// The CAD model: one solid, read and queried with OpenCASCADE behind this header.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/types.h"
+
+namespace polycube {
+
+enum class SurfaceKind { kPlane, kCylinder, kCone, kSphere, kTorus, kExtrusion, kRevolution, kOther };
+
+struct CadFace {
+  SurfaceKind kind = SurfaceKind::kOther;
+  double area = 0;             ///< mm^2
+  Vec3 axis = Vec3::Zero();    ///< plane: outward normal; cylinder, cone, torus, revolution: axis; extrusion: direction; else zero. Unit.
+  Vec3 centre = Vec3::Zero();  ///< a point on the axis, or in the plane
+  double radius = 0;           ///< cylinder, sphere, torus (minor): mm, else 0
+  std::vector<int> edges;      ///< CAD edges on its border, ascending, without degenerate ones
+  double tolerance = 0;        ///< mm
+};
+
+struct CadEdge {
+  std::array<int, 2> faces{0, 0};      ///< CAD faces on both sides; the same twice for a seam
+  std::array<int, 2> vertices{0, 0};   ///< start and end; the same twice for a closed edge
+  double length = 0;                   ///< mm
+  bool closed = false;
+  bool seam = false;                   ///< both sides are the same face
+  bool degenerate = false;             ///< a point (cone tip, sphere pole): no curve
+  double min_angle = 0, max_angle = 0; ///< least and largest interior dihedral angle along it, radians: pi smooth, < pi convex
+  double tolerance = 0;                ///< mm
+};
+
+struct FacePoint {
+  Vec3 point;            ///< on the trimmed face
+  Vec2 uv;
+  double distance = 0;   ///< mm, from the asked point
+};
+
+struct EdgePoint {
+  Vec3 point;
+  double t = 0;          ///< curve parameter
+  double distance = 0;   ///< mm
+};
+
+/// One valid solid. Copies share the shape. All const members are safe to call from several threads at once.
+/// Face, edge and vertex numbers are FreeCAD's: 1-based, the order of TopExp::MapShapes on the whole shape.
+class CadModel {
+ public:
+  /// Reads .step/.stp/.brep/.brp. Throws InvalidInput with one line: unreadable, empty, open, not one solid, self-intersecting, zero volume.
+  static CadModel read(const std::string& path);
+  /// From BREP text (what FreeCAD's Shape.exportBrepToString gives). Throws InvalidInput.
+  static CadModel from_brep(const std::string& text);
+  /// The shape as BREP text.
+  std::string to_brep() const;
+
+  int face_count() const;
+  int edge_count() const;
+  int vertex_count() const;
+  const CadFace& face(int id) const;
+  const CadEdge& edge(int id) const;
+  const Vec3& vertex(int id) const;
+
+  Vec3 box_min() const;
+  Vec3 box_max() const;
+  double diagonal() const;   ///< of the bounding box, mm
+  double volume() const;     ///< mm^3
+  int euler_characteristic() const;  ///< of the boundary surface
+
+  /// Nearest point of the trimmed face. `seed`, if not null, is a (u, v) near the answer and makes it much faster.
+  FacePoint project_to_face(int id, const Vec3& p, const Vec2* seed = nullptr) const;
+  /// Nearest point of the edge; `seed`, if not null, is a parameter near the answer.
+  EdgePoint project_to_edge(int id, const Vec3& p, const double* seed = nullptr) const;
+  /// Unit normal pointing out of the solid.
+  Vec3 face_normal(int id, const Vec2& uv) const;
+  Vec3 face_point(int id, const Vec2& uv) const;
+  Vec3 edge_point(int id, double t) const;
+  Vec3 edge_tangent(int id, double t) const;                 ///< unit, start to end
+  std::array<double, 2> edge_range(int id) const;            ///< parameters of start and end
+  std::vector<Vec3> edge_samples(int id, int count) const;   ///< count >= 2 points evenly by parameter, both ends included
+
+  struct Shape;  // OCCT behind it, see cad/shape.h
+  const Shape& shape() const { return *shape_; }
+
+ private:
+  explicit CadModel(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
+  std::shared_ptr<const Shape> shape_;
+};
+
+}  // namespace polycube

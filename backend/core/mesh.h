@@ -1,0 +1,58 @@
+// Mesh value types. Plain vectors; indices are 0-based, CAD numbers 1-based as in FreeCAD.
+#pragma once
+
+#include <string>
+
+#include "core/types.h"
+
+namespace polycube {
+
+using Tet = std::array<int, 4>;
+using Triangle = std::array<int, 3>;
+using Quad = std::array<int, 4>;
+using Hex = std::array<int, 8>;
+using Segment = std::array<int, 2>;
+
+/// Tetrahedra of a solid with their classification on the CAD model.
+/// A tet is positive: (p1-p0) x (p2-p0) . (p3-p0) > 0. A triangle's normal points out of the solid.
+struct TetMesh {
+  std::vector<Vec3> points;
+  std::vector<CadRef> point_cad;    ///< per point: the lowest-dimensional CAD entity it stands on
+  std::vector<Tet> tets;
+  std::vector<Triangle> triangles;  ///< all boundary facets of the tets
+  std::vector<int> triangle_face;   ///< per triangle: CAD face
+  std::vector<Segment> segments;    ///< mesh edges that lie on CAD edges
+  std::vector<int> segment_edge;    ///< per segment: CAD edge
+};
+
+/// A connected set of boundary triangles with one label, or (sign 0) a feature: nodes that share one coordinate.
+struct Chart {
+  int axis = 0;                ///< 0, 1, 2: the coordinate of the map that is constant on it
+  int sign = 0;                ///< +1 / -1: which way it faces; 0: a feature inside other charts
+  std::vector<int> triangles;  ///< indices into TetMesh::triangles; empty for a feature
+  std::vector<int> nodes;      ///< sorted point indices
+  double value = 0;            ///< the constant coordinate, in units of the map
+};
+
+/// Hexahedra with their boundary.
+/// Corner order of a hex is VTK's (see core/hexahedron.h); a quad's normal points out of the solid.
+struct HexMesh {
+  std::vector<Vec3> points;
+  std::vector<Hex> hexes;
+};
+
+/// What the boundary of a HexMesh stands for on the CAD model.
+/// A patch is a set of CAD faces that the mesh does not tell apart: one face where all its edges are captured, several where an edge
+/// between them is not. Together the patches hold every CAD face once.
+struct Association {
+  std::vector<std::vector<int>> patches;  ///< CAD faces of each patch, ascending
+  std::vector<Quad> quads;                ///< all boundary quads of the mesh, outward
+  std::vector<int> quad_patch;            ///< per quad: index into patches
+  std::vector<Segment> segments;          ///< mesh edges that stand for a piece of a CAD edge
+  std::vector<int> segment_edge;          ///< per segment: CAD edge
+  std::vector<CadRef> point_cad;          ///< per mesh point: {0, vertex}, {1, edge}, {2, index into patches}, or {3, 1} inside
+  std::vector<int> lost_edges;            ///< CAD edges without a chain of mesh edges (seams and degenerate edges not counted)
+  std::vector<int> lost_vertices;         ///< CAD vertices without a node
+};
+
+}  // namespace polycube

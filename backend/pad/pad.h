@@ -1,0 +1,27 @@
+// Layers of hexahedra where the CAD is smooth but the polycube has an edge, and round CAD edges that cross the grid.
+#pragma once
+
+#include "cad/cad.h"
+#include "core/mesh.h"
+#include "core/monitor.h"
+
+namespace polycube {
+
+struct PaddedMesh {
+  HexMesh mesh;
+  Association association;
+};
+
+struct PadReport {
+  int surface_quads = 0;   ///< boundary quads that got a layer
+  int rings = 0;           ///< patches that got a ring of quads inside their border
+  int added_hexes = 0;
+};
+
+/// Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a cell inside); fit follows.
+PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report = nullptr);
+
+/// Recomputes nothing: the list of what is wrong with the pair (non-manifold boundary, quads and point classes that contradict, ...).
+std::vector<std::string> check(const HexMesh& mesh, const Association& association);
+
+}  // namespace polycube

@@ -1,0 +1,65 @@
+// The one source of options: the command line, the Python signature and FreeCAD's properties are made from this table.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace polycube {
+
+/// (CAD face, label 0..5 = +X -X +Y -Y +Z -Z).
+using FaceLabels = std::vector<std::pair<int, int>>;
+
+/// What a user can ask of a mesh. Meaning, unit and bounds of each member: option_table().
+struct MeshOptions {
+  double size = 0;
+  int hexes = 0;
+  bool coarsest = false;
+  int order = 2;
+  std::string element_type;
+  double time_limit = 0;
+  double feature_angle = 0;
+  int threads = 0;
+  FaceLabels labels;
+  double fidelity = 3;
+  double compactness = 1;
+};
+
+/// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
+struct OptionSpec {
+  using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*>;
+  std::string name;
+  std::string unit;                  ///< "mm", "s", "degrees" or empty
+  std::string meaning;               ///< one sentence
+  Member member;
+  double min = 0, max = 0;           ///< inclusive bounds of a number
+  std::vector<std::string> choices;  ///< allowed values of a word, or of a number as text; empty: any within the bounds
+  bool advanced = false;             ///< not for everyday use
+};
+
+const std::vector<OptionSpec>& option_table();
+
+/// "double", "int", "bool", "string" or "labels".
+std::string option_type(const OptionSpec& option);
+
+/// Sets an option from text ("2.5", "true", "C3D8I", "Face3=+X,Face7=-Z"). Throws InvalidInput naming the option.
+void set_option(MeshOptions& options, const std::string& name, const std::string& text);
+
+/// The value as text that set_option reads back.
+std::string option_text(const MeshOptions& options, const OptionSpec& option);
+
+/// Throws InvalidInput, one line naming the option: not a number, out of bounds, not a choice, two ways of giving the size at once,
+/// an element type that contradicts the order.
+void check(const MeshOptions& options);
+
+/// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label names a face it does not have.
+void check(const MeshOptions& options, double diagonal, int face_count);
+
+/// Edge length in force, mm: `size`, or diagonal / 30 where it is 0.
+double effective_size(const MeshOptions& options, double diagonal);
+
+/// Abaqus name of the elements in force: `element_type`, or C3D8 / C3D20 by order.
+std::string effective_element_type(const MeshOptions& options);
+
+}  // namespace polycube

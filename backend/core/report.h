@@ -1,0 +1,60 @@
+// What a run did and what came out of it, for people and for machines.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/options.h"
+#include "core/quality.h"
+
+namespace polycube {
+
+struct StageRecord {
+  std::string name;
+  double seconds = 0;
+};
+
+struct WorstCell {
+  int hex = 0;                      ///< 0-based
+  Vec3 centre = Vec3::Zero();       ///< mm
+  double scaled_jacobian = 0;
+  std::vector<int> faces;           ///< CAD faces that it touches, ascending; empty for an inner cell
+};
+
+/// CAD entities that the mesh has quads, edges and nodes for, out of all. Seams and degenerate edges are not counted.
+struct CadCapture {
+  int vertices = 0, edges = 0, faces = 0;
+  int vertices_captured = 0, edges_captured = 0, faces_captured = 0;
+  std::vector<int> lost_vertices, lost_edges, lost_faces;   ///< ascending
+};
+
+struct MeshReport {
+  std::string version;
+  MeshOptions options;
+  double size = 0;                      ///< edge length in force, mm
+  std::vector<StageRecord> stages;      ///< in the order they ran; a stage that ran for several candidates is summed up
+  double peak_memory_mb = 0;
+  int tets = 0, charts = 0, blocks = 0, hexes = 0, nodes = 0;
+  QualitySummary quality;               ///< of the corners (first order)
+  double volume = 0;                    ///< mm^3, of the mesh
+  double cad_volume = 0;                ///< mm^3
+  std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most 20
+  CadCapture capture;
+  double quantization_objective = 0, quantization_bound = 0;
+  int padded_hexes = 0;                 ///< cells that padding added
+  int straightened_edges = 0;           ///< second order: curved edges left straight because curving would invert a cell
+  std::vector<std::string> warnings;    ///< one line each
+};
+
+/// The `count` cells of least scaled Jacobian, ties by index.
+std::vector<WorstCell> worst_cells(const HexMesh& mesh, const Association& association, int count = 20);
+
+/// Counts the model's entities against the association's lists. A face in a patch of several faces is lost: the mesh does not tell it apart.
+/// `real_edges` are the CAD edges that count (neither seam nor degenerate).
+CadCapture capture(const Association& association, int vertex_count, const std::vector<int>& real_edges, int face_count);
+
+/// JSON object, indented, one line end at its end.
+std::string to_json(const MeshReport& report);
+
+}  // namespace polycube

@@ -35,3 +35,5 @@ polycube_stage(pad USES core cad)
 polycube_stage(fit USES core cad)
 polycube_stage(fem USES core cad)
 polycube_stage(pipeline USES core cad tet label deform blocks quantize hex pad fit fem)
+# Boost's max flow copies descriptors that it has not set yet; GCC 12 takes that for a use.
+set_source_files_properties(backend/label/graph_cut.cpp PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)

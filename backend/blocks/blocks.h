@@ -6,12 +6,6 @@
 
 namespace polycube {
 
-/// A polycuboid map: tets, their images, and the charts (features included) that are axis-aligned planes of the image.
-struct PolycuboidMap {
-  std::vector<Vec3> image;     ///< per point of the tet mesh; the coordinate chart.axis of every chart.nodes is exactly chart.value
-  std::vector<Chart> charts;
-};
-
 struct Block {
   std::array<std::array<int, 2>, 3> charts{};      ///< per axis: the charts of its low and its high side
   std::array<int, 8> corners{};                    ///< block vertices, in the order of core/hexahedron.h

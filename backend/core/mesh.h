@@ -34,6 +34,12 @@ struct Chart {
   double value = 0;            ///< the constant coordinate, in units of the map
 };
 
+/// A polycuboid map: tets, their images, and the charts (features included) that are axis-aligned planes of the image.
+struct PolycuboidMap {
+  std::vector<Vec3> image;     ///< per point of the tet mesh; the coordinate chart.axis of every chart.nodes is exactly chart.value
+  std::vector<Chart> charts;
+};
+
 /// Hexahedra with their boundary.
 /// Corner order of a hex is VTK's (see core/hexahedron.h); a quad's normal points out of the solid.
 struct HexMesh {

@@ -1,0 +1,25 @@
+// The polycuboid map g: every chart becomes an axis-aligned plane, with as little distortion as can be had.
+#pragma once
+
+#include "core/mesh.h"
+#include "core/monitor.h"
+
+namespace polycube {
+
+struct DeformOptions {
+  int rotations = 12;        ///< local/global rounds after the first solve (as rigid as possible)
+  double merge = 0;          ///< mm: charts of one axis whose values differ by less become one plane
+};
+
+struct DeformReport {
+  int flipped = 0;           ///< tets with non-positive volume in the image
+  double worst_stretch = 0;  ///< largest singular value of the map's gradient over positive tets
+};
+
+/// `frame` rows are the axes, `labels` (0..5 per boundary triangle) belong to them, `features` are charts with sign 0 (axis and nodes filled).
+/// The result's charts are those of the labelling (core/charts.h), then the features that could be kept, each with its value; the image is in mm.
+/// Throws StageFailed("deform", ...) when the charts leave no room for a map (a coordinate is the same all over).
+PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels, const std::vector<Chart>& features,
+                     const DeformOptions& options, const Monitor& monitor, DeformReport* report = nullptr);
+
+}  // namespace polycube

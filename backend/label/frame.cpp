@@ -1,0 +1,111 @@
+#include "label/frame.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace polycube {
+namespace {
+
+struct Vote {
+  Vec3 direction;
+  double weight;
+};
+
+// Directions up to sign, those within a thousandth of a radian gathered into one.
+std::vector<Vote> collect_votes(const CadModel& model) {
+  std::vector<Vote> votes;
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const CadFace& face = model.face(f);
+    if (face.axis.squaredNorm() < 0.5) continue;
+    // The axis of a curved face fixes one direction only, as a plane does; curved faces count less so that a big barrel does not
+    // outvote the planes beside it.
+    const double weight = face.area * (face.kind == SurfaceKind::kPlane ? 1.0 : 0.5);
+    auto same = std::find_if(votes.begin(), votes.end(), [&](const Vote& v) { return std::abs(v.direction.dot(face.axis)) > 1 - 1e-6; });
+    if (same != votes.end()) {
+      same->weight += weight;
+    } else {
+      votes.push_back({face.axis.normalized(), weight});
+    }
+  }
+  std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.weight > b.weight * (1 + 1e-9); });
+  return votes;
+}
+
+double score(const Mat3& frame, const std::vector<Vote>& votes) {
+  double sum = 0;
+  for (const Vote& v : votes) {
+    const double cosine = (frame * v.direction).cwiseAbs().maxCoeff();
+    sum += v.weight * std::exp(-(1 - cosine) / 0.01);
+  }
+  return sum;
+}
+
+// Of the 24 right-handed orders and signs of the axes the one nearest to the identity.
+Mat3 nearest_to_world(const Mat3& frame) {
+  Mat3 best = frame;
+  double best_trace = -10;
+  std::array<int, 3> order{0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Mat3 candidate;
+      for (int k = 0; k < 3; ++k) candidate.row(k) = (signs >> k & 1 ? -1.0 : 1.0) * frame.row(order[k]);
+      if (candidate.determinant() < 0 || candidate.trace() <= best_trace + 1e-9) continue;
+      best_trace = candidate.trace();
+      best = candidate;
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+  return best;
+}
+
+// A direction across `axis` that turns with the part: to the CAD vertex furthest from the axis through the box of vertices.
+Vec3 direction_across(const CadModel& model, const Vec3& axis) {
+  Vec3 centre = Vec3::Zero();
+  double area = 0;
+  for (int f = 1; f <= model.face_count(); ++f) {
+    centre += model.face(f).area * model.face(f).centre;
+    area += model.face(f).area;
+  }
+  centre /= area;
+  Vec3 best = Vec3::Zero();
+  for (int v = 1; v <= model.vertex_count(); ++v) {
+    const Vec3 arm = model.vertex(v) - centre;
+    const Vec3 across = arm - arm.dot(axis) * axis;
+    if (across.norm() > best.norm() * (1 + 1e-6) + 1e-6 * model.diagonal()) best = across;
+  }
+  if (best.norm() > 1e-3 * model.diagonal()) return best.normalized();
+  return axis.unitOrthogonal();
+}
+
+}  // namespace
+
+Mat3 find_frame(const CadModel& model) {
+  const std::vector<Vote> votes = collect_votes(model);
+  if (votes.empty()) return Mat3::Identity();
+  Mat3 best = Mat3::Identity();
+  double best_score = -1;
+  const std::size_t tried = std::min<std::size_t>(votes.size(), 24);
+  for (std::size_t i = 0; i < tried; ++i) {
+    const Vec3 a = votes[i].direction;
+    std::vector<Vec3> seconds;
+    for (std::size_t j = 0; j < tried; ++j) {
+      const Vec3 across = votes[j].direction - votes[j].direction.dot(a) * a;
+      if (across.norm() > 0.1) seconds.push_back(across.normalized());
+    }
+    if (seconds.empty()) seconds.push_back(direction_across(model, a));
+    for (const Vec3& b : seconds) {
+      Mat3 frame;
+      frame.row(0) = a;
+      frame.row(1) = b;
+      frame.row(2) = a.cross(b);
+      const double s = score(frame, votes);
+      if (s > best_score * (1 + 1e-9)) {
+        best_score = s;
+        best = frame;
+      }
+    }
+  }
+  return nearest_to_world(best);
+}
+
+}  // namespace polycube

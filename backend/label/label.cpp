@@ -1,0 +1,228 @@
+#include "label/label.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "core/charts.h"
+#include "label/frame.h"
+#include "label/graph_cut.h"
+#include "label/search.h"
+
+namespace polycube {
+namespace {
+
+// Below this cosine between a face's mean normal and one of its triangles' the face bends too far for one label.
+constexpr double kOneLabelCosine = 0.57;
+// A planar face within about 15 degrees of an axis has the label of that axis.
+constexpr double kAlignedCosine = 0.966;
+constexpr double kSharpBend = std::numbers::pi / 6;
+
+struct Setup {
+  const CadModel& model;
+  const TetMesh& mesh;
+  const LabelOptions& options;
+  Mat3 frame;
+  std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
+  std::vector<double> area;
+  std::vector<char> whole;    // per CAD face: one label for all of it
+  double scale;               // mm
+};
+
+Vec3 triangle_normal(const TetMesh& mesh, int t) {
+  const Triangle& tri = mesh.triangles[t];
+  return (mesh.points[tri[1]] - mesh.points[tri[0]]).cross(mesh.points[tri[2]] - mesh.points[tri[0]]);
+}
+
+// On cones, tori and other surfaces round an axis of the frame the labels across the axis are preferred: a ring-shaped chart border in the middle of
+// such a face would cut it where nothing in the CAD asks for it, and its outer rim could only be reached diagonally.
+void prefer_labels_across(Setup& s) {
+  for (int t = 0; t < static_cast<int>(s.normal.size()); ++t) {
+    const CadFace& face = s.model.face(s.mesh.triangle_face[t]);
+    const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kTorus || face.kind == SurfaceKind::kRevolution;
+    if (!round) continue;
+    const Vec3 axis = s.frame * face.axis;
+    int k = 0;
+    if (axis.cwiseAbs().maxCoeff(&k) < kAlignedCosine) continue;
+    Vec3 n = s.normal[t];
+    if (std::abs(n[k]) > 0.97) continue;
+    n[k] *= 0.4;
+    s.normal[t] = n.normalized();
+  }
+}
+
+double data_cost(const Vec3& normal, int label) {
+  const double cosine = label_sign(label) * normal[label_axis(label)];
+  const double x = (cosine - 1) / 0.2;
+  // The published term saturates; a slope behind keeps wrong directions ordered.
+  return 1 - std::exp(-x * x / 2) + 0.3 * (1 - cosine);
+}
+
+double change_weight(double angle, bool same_face) {
+  if (same_face) return 1;
+  return std::abs(angle - std::numbers::pi) > kSharpBend ? 0.1 : 0.5;
+}
+
+Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options) {
+  Setup s{model, mesh, options, options.frame_given ? options.frame : find_frame(model), {}, {}, {}, 0.02 * model.diagonal()};
+  const auto n = mesh.triangles.size();
+  s.normal.resize(n);
+  s.area.resize(n);
+  std::vector<Vec3> mean(model.face_count() + 1, Vec3::Zero());
+  for (std::size_t t = 0; t < n; ++t) {
+    const Vec3 w = s.frame * triangle_normal(mesh, static_cast<int>(t));
+    s.area[t] = w.norm() / 2;
+    s.normal[t] = w.normalized();
+    mean[mesh.triangle_face[t]] += w;
+  }
+  s.whole.assign(model.face_count() + 1, 1);
+  for (std::size_t t = 0; t < n; ++t) {
+    const int f = mesh.triangle_face[t];
+    if (s.normal[t].dot(mean[f].normalized()) < kOneLabelCosine) s.whole[f] = 0;
+  }
+  prefer_labels_across(s);
+  return s;
+}
+
+// Graph cut over triangles, those of a whole face (and of a face the user labelled) taken together. Returns labels per triangle.
+std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
+  const auto n = s.mesh.triangles.size();
+  std::vector<int> given(s.model.face_count() + 1, -1), face_node(s.model.face_count() + 1, -1), node(n);
+  for (const auto& [face, label] : s.options.face_labels) given[face] = label;
+  CutProblem problem;
+  for (std::size_t t = 0; t < n; ++t) {
+    const int f = s.mesh.triangle_face[t];
+    if (s.whole[f] || given[f] >= 0) {
+      if (face_node[f] < 0) {
+        face_node[f] = static_cast<int>(problem.data.size());
+        problem.data.push_back({});
+      }
+      node[t] = face_node[f];
+    } else {
+      node[t] = static_cast<int>(problem.data.size());
+      problem.data.push_back({});
+    }
+    const CadFace& face = s.model.face(f);
+    const double scale = face.radius > 0 ? std::min(s.scale, 0.5 * face.radius) : s.scale;
+    for (int l = 0; l < 6; ++l) {
+      double cost = s.options.fidelity * data_cost(s.normal[t], l) * s.area[t] / (scale * s.scale);
+      if (given[f] >= 0 && given[f] != l) cost = kForbidden;
+      const bool planar = face.kind == SurfaceKind::kPlane && s.normal[t].cwiseAbs().maxCoeff() > kAlignedCosine;
+      if (given[f] < 0 && planar && label_sign(l) * s.normal[t][label_axis(l)] < kAlignedCosine) cost = kForbidden;
+      problem.data[node[t]][l] = std::min(problem.data[node[t]][l] + cost, kForbidden);
+    }
+  }
+  const auto neighbours = triangle_neighbours(s.mesh.triangles);
+  std::map<std::pair<int, int>, double> links;
+  for (std::size_t t = 0; t < n; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int m = neighbours[t][k];
+      if (m <= static_cast<int>(t) || node[m] == node[t]) continue;
+      const double length = (s.mesh.points[s.mesh.triangles[t][k]] - s.mesh.points[s.mesh.triangles[t][(k + 1) % 3]]).norm();
+      const double bend = std::acos(std::clamp(s.normal[t].dot(s.normal[m]), -1.0, 1.0));
+      const double weight = change_weight(std::numbers::pi - bend, s.mesh.triangle_face[t] == s.mesh.triangle_face[m]);
+      links[std::minmax(node[t], node[m])] += s.options.compactness * weight * length / s.scale;
+    }
+  }
+  for (const auto& [pair, weight] : links) problem.links.push_back({pair.first, pair.second, weight});
+  const std::vector<int> solution = solve(problem, monitor);
+  std::vector<int> labels(n);
+  for (std::size_t t = 0; t < n; ++t) labels[t] = solution[node[t]];
+  return labels;
+}
+
+// Connected triangles of one CAD face and one label. Pieces much smaller than their face's largest join the neighbour they share most border with.
+std::vector<int> split_regions(const Setup& s, std::vector<int> labels) {
+  const auto neighbours = triangle_neighbours(s.mesh.triangles);
+  const int n = static_cast<int>(labels.size());
+  std::vector<int> region;
+  for (int pass = 0; pass < 3; ++pass) {
+    region.assign(n, -1);
+    std::vector<std::vector<int>> members;
+    std::vector<double> area;
+    std::vector<double> largest(s.model.face_count() + 1, 0);
+    for (int seed = 0; seed < n; ++seed) {
+      if (region[seed] >= 0) continue;
+      const int id = static_cast<int>(members.size());
+      members.push_back({seed});
+      area.push_back(0);
+      region[seed] = id;
+      for (std::size_t i = 0; i < members[id].size(); ++i) {
+        const int t = members[id][i];
+        area[id] += s.area[t];
+        for (int m : neighbours[t]) {
+          if (m < 0 || region[m] >= 0 || labels[m] != labels[seed] || s.mesh.triangle_face[m] != s.mesh.triangle_face[seed]) continue;
+          region[m] = id;
+          members[id].push_back(m);
+        }
+      }
+      double& big = largest[s.mesh.triangle_face[seed]];
+      big = std::max(big, area[id]);
+    }
+    bool changed = false;
+    for (std::size_t id = 0; id < members.size(); ++id) {
+      const int face = s.mesh.triangle_face[members[id][0]];
+      if (area[id] > 0.04 * largest[face]) continue;
+      std::array<double, 6> border{};
+      for (int t : members[id]) {
+        for (int k = 0; k < 3; ++k) {
+          const int m = neighbours[t][k];
+          if (m < 0 || region[m] == static_cast<int>(id) || s.mesh.triangle_face[m] != face) continue;
+          border[labels[m]] += (s.mesh.points[s.mesh.triangles[t][k]] - s.mesh.points[s.mesh.triangles[t][(k + 1) % 3]]).norm();
+        }
+      }
+      const int best = static_cast<int>(std::max_element(border.begin(), border.end()) - border.begin());
+      for (int t : members[id]) labels[t] = best;
+      changed = true;
+    }
+    if (!changed) break;
+  }
+  return region;
+}
+
+}  // namespace
+
+Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor) {
+  const Setup s = prepare(model, mesh, options);
+  monitor.progress("label", 0);
+  const std::vector<int> first = cut_triangles(s, monitor);
+  monitor.progress("label", 0.3);
+  RegionGraph graph = build_region_graph(mesh, split_regions(s, first));
+  std::vector<int> given(model.face_count() + 1, -1);
+  for (const auto& [face, label] : options.face_labels) given[face] = label;
+  std::vector<int> region_label;
+  for (Region& r : graph.regions) {
+    std::array<double, 6> votes{};
+    for (int t : r.triangles) {
+      votes[first[t]] += s.area[t];
+      for (int l = 0; l < 6; ++l) r.data[l] += options.fidelity * data_cost(s.normal[t], l) * s.area[t] / (s.scale * s.scale);
+    }
+    for (int l = 0; l < 6; ++l) {
+      if (given[r.face] >= 0 && given[r.face] != l) r.data[l] = kForbidden;
+    }
+    region_label.push_back(static_cast<int>(std::max_element(votes.begin(), votes.end()) - votes.begin()));
+  }
+  for (Arc& a : graph.arcs) a.weight = options.compactness * change_weight(a.angle, graph.regions[a.left].face == graph.regions[a.right].face) / s.scale;
+  std::vector<Vec3> points;
+  points.reserve(mesh.points.size());
+  for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
+  double edge = 0;
+  for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
+  edge /= static_cast<double>(mesh.triangles.size());
+  region_label = repair(graph, points, std::move(region_label), 0.75 * edge, monitor);
+
+  Labelling result;
+  result.frame = s.frame;
+  result.label.resize(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result.label[t] = region_label[graph.triangle_region[t]];
+  const Violations left = find_violations(graph, points, region_label, 0.75 * edge);
+  monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
+              std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
+              std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
+  monitor.progress("label", 1);
+  return result;
+}
+
+}  // namespace polycube

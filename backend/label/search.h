@@ -1,0 +1,14 @@
+// Repair of a labelling by search over the labels of whole regions.
+#pragma once
+
+#include "core/monitor.h"
+#include "label/validity.h"
+
+namespace polycube {
+
+/// Lowers the violations, then the energy (Region::data and Arc::weight), by relabelling single regions, pairs of adjacent regions and whole charts.
+/// Never returns a labelling with a higher score than it was given. Deterministic; ends when no move helps.
+std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise,
+                        const Monitor& monitor);
+
+}  // namespace polycube

@@ -1,0 +1,23 @@
+// What is wrong with a labelling of regions: the published rules (Mestrallet, Bourcier, Ledoux 2025, arXiv 2502.05712), the corner rule in full.
+#pragma once
+
+#include "label/regions.h"
+
+namespace polycube {
+
+struct Violations {
+  int opposite_arcs = 0;     ///< arcs between +axis and -axis of one axis
+  int poor_loops = 0;        ///< missing corners, summed over the border loops of charts (each needs four)
+  int bad_corners = 0;       ///< corners whose cyclic label order no polycube corner has
+  int turning_points = 0;    ///< places where a boundary reverses along its axis
+  int bad_turns = 0;         ///< chart borders that do not close as a rectilinear polygon
+  double score = 0;          ///< weighted sum
+  std::vector<int> regions;  ///< regions beside a violation, ascending
+
+  bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
+};
+
+/// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count.
+Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise);
+
+}  // namespace polycube

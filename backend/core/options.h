@@ -34,7 +34,8 @@ struct OptionSpec {
   std::string meaning;               ///< one sentence
   Member member;
   double min = 0, max = 0;           ///< inclusive bounds of a number
-  std::vector<std::string> choices;  ///< allowed values of a word, or of a number as text; empty: any within the bounds
+  bool zero_is_unset = false;        ///< the default 0 stands for "not given"; giving 0 is an error
+  std::vector<std::string> choices{};///< allowed values of a word, or of a number as text; empty: any within the bounds
   bool advanced = false;             ///< not for everyday use
 };
 
@@ -43,10 +44,11 @@ const std::vector<OptionSpec>& option_table();
 /// "double", "int", "bool", "string" or "labels".
 std::string option_type(const OptionSpec& option);
 
-/// Sets an option from text ("2.5", "true", "C3D8I", "Face3=+X,Face7=-Z"). Throws InvalidInput naming the option.
-void set_option(MeshOptions& options, const std::string& name, const std::string& text);
+/// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"), checked.
+/// An element type given without an order brings its own order. Throws InvalidInput naming the option.
+MeshOptions parse_options(const std::vector<std::pair<std::string, std::string>>& given);
 
-/// The value as text that set_option reads back.
+/// The value as text that parse_options reads back.
 std::string option_text(const MeshOptions& options, const OptionSpec& option);
 
 /// Throws InvalidInput, one line naming the option: not a number, out of bounds, not a choice, two ways of giving the size at once,

@@ -19,7 +19,7 @@ struct WorstCell {
   int hex = 0;                      ///< 0-based
   Vec3 centre = Vec3::Zero();       ///< mm
   double scaled_jacobian = 0;
-  std::vector<int> faces;           ///< CAD faces that it touches, ascending; empty for an inner cell
+  std::vector<int> faces{};         ///< CAD faces that it touches, ascending; empty for an inner cell
 };
 
 /// CAD entities that the mesh has quads, edges and nodes for, out of all. Seams and degenerate edges are not counted.

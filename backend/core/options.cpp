@@ -1,0 +1,246 @@
+#include "core/options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+constexpr double kSizesPerDiagonal = 30;
+
+std::string flag(const std::string& name) {
+  std::string text = "--" + name;
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+std::string number_text(double value) {
+  // The shortest text that reads back as the same number.
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+template <typename T>
+T parse_number(const OptionSpec& option, const std::string& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value))) {
+    const char* kind = std::is_same_v<T, int> ? "a whole number" : "a number";
+    throw InvalidInput(flag(option.name) + ": '" + text + "' is not " + kind);
+  }
+  if (option.zero_is_unset && value == 0) throw InvalidInput(flag(option.name) + " must be greater than 0");
+  return value;
+}
+
+bool parse_bool(const OptionSpec& option, std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (text == "true" || text == "1" || text == "yes") return true;
+  if (text == "false" || text == "0" || text == "no") return false;
+  throw InvalidInput(flag(option.name) + ": '" + text + "' is neither true nor false");
+}
+
+FaceLabels parse_labels(const OptionSpec& option, const std::string& text) {
+  FaceLabels labels;
+  std::istringstream items(text);
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto fail = [&] { return InvalidInput(flag(option.name) + ": '" + item + "' is not of the form Face3=+X"); };
+    const auto equals = item.find('=');
+    if (item.rfind("Face", 0) != 0 || equals == std::string::npos) throw fail();
+    int face = 0;
+    const char* last = item.data() + equals;
+    const auto [end, error] = std::from_chars(item.data() + 4, last, face);
+    const auto label = std::find(kLabelNames.begin(), kLabelNames.end(), std::string_view(item).substr(equals + 1));
+    if (error != std::errc() || end != last || face < 1 || label == kLabelNames.end()) throw fail();
+    for (const auto& [other, unused] : labels)
+      if (other == face) throw InvalidInput(flag(option.name) + ": Face" + std::to_string(face) + " is given twice");
+    labels.emplace_back(face, static_cast<int>(label - kLabelNames.begin()));
+  }
+  std::sort(labels.begin(), labels.end());
+  return labels;
+}
+
+const OptionSpec& find(const std::string& name) {
+  for (const OptionSpec& option : option_table())
+    if (option.name == name) return option;
+  throw InvalidInput("there is no option '" + name + "'");
+}
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+
+void set(MeshOptions& options, const OptionSpec& option, const std::string& text) {
+  std::visit(Overloaded{
+                 [&](double MeshOptions::*m) { options.*m = parse_number<double>(option, text); },
+                 [&](int MeshOptions::*m) { options.*m = parse_number<int>(option, text); },
+                 [&](bool MeshOptions::*m) { options.*m = parse_bool(option, text); },
+                 [&](std::string MeshOptions::*m) { options.*m = text; },
+                 [&](FaceLabels MeshOptions::*m) { options.*m = parse_labels(option, text); },
+             },
+             option.member);
+}
+
+void check_bounds(const OptionSpec& option, double value) {
+  if (std::isnan(value)) throw InvalidInput(flag(option.name) + " is not a number");
+  if (value < option.min) {
+    const std::string bound = option.zero_is_unset ? "greater than 0" : "at least " + number_text(option.min);
+    throw InvalidInput(flag(option.name) + " must be " + bound + ", not " + number_text(value));
+  }
+  if (value > option.max)
+    throw InvalidInput(flag(option.name) + " must be at most " + number_text(option.max) + ", not " + number_text(value));
+}
+
+int order_of(const std::string& element_type) { return element_type.rfind("C3D20", 0) == 0 ? 2 : 1; }
+
+}  // namespace
+
+const std::vector<OptionSpec>& option_table() {
+  static const std::vector<OptionSpec> table{
+      {.name = "size",
+       .unit = "mm",
+       .meaning = "Edge length of the hexahedra. Default: bounding-box diagonal / 30.",
+       .member = &MeshOptions::size,
+       .max = 1e12,
+       .zero_is_unset = true},
+      {.name = "hexes",
+       .unit = "",
+       .meaning = "Number of hexahedra to come near to, instead of a size.",
+       .member = &MeshOptions::hexes,
+       .max = 100'000'000,
+       .zero_is_unset = true},
+      {.name = "coarsest",
+       .unit = "",
+       .meaning = "The fewest hexahedra that keep the part's shape, instead of a size.",
+       .member = &MeshOptions::coarsest},
+      {.name = "order",
+       .unit = "",
+       .meaning = "Element order: 1 (8 nodes) or 2 (20 nodes, mid-edge nodes on the CAD).",
+       .member = &MeshOptions::order,
+       .min = 1,
+       .max = 2,
+       .choices = {"1", "2"}},
+      {.name = "element_type",
+       .unit = "",
+       .meaning = "Element of .inp files. Default: C3D8 or C3D20 by order.",
+       .member = &MeshOptions::element_type,
+       .choices = {"C3D8", "C3D8I", "C3D8R", "C3D20", "C3D20R"}},
+      {.name = "time_limit",
+       .unit = "s",
+       .meaning = "Stop without a mesh after this time. Default: no limit.",
+       .member = &MeshOptions::time_limit,
+       .max = 1e9,
+       .zero_is_unset = true},
+      {.name = "labels",
+       .unit = "",
+       .meaning = "Axes of CAD faces set by hand, such as Face3=+X,Face7=-Z.",
+       .member = &MeshOptions::labels},
+      {.name = "feature_angle",
+       .unit = "degrees",
+       .meaning = "CAD edges that bend less than this need not be followed by mesh edges. 0: follow all.",
+       .member = &MeshOptions::feature_angle,
+       .max = 180,
+       .advanced = true},
+      {.name = "threads",
+       .unit = "",
+       .meaning = "Threads to use; the mesh does not depend on it. 0: all cores.",
+       .member = &MeshOptions::threads,
+       .max = 1024,
+       .advanced = true},
+      {.name = "fidelity",
+       .unit = "",
+       .meaning = "Weight of labels that agree with the surface normal.",
+       .member = &MeshOptions::fidelity,
+       .max = 1000,
+       .advanced = true},
+      {.name = "compactness",
+       .unit = "",
+       .meaning = "Weight of short borders between labels.",
+       .member = &MeshOptions::compactness,
+       .max = 1000,
+       .advanced = true},
+  };
+  return table;
+}
+
+std::string option_type(const OptionSpec& option) {
+  static constexpr std::array<const char*, 5> kTypes{"double", "int", "bool", "string", "labels"};
+  return kTypes[option.member.index()];
+}
+
+MeshOptions parse_options(const std::vector<std::pair<std::string, std::string>>& given) {
+  MeshOptions options;
+  bool order_given = false;
+  for (const auto& [name, text] : given) {
+    set(options, find(name), text);
+    order_given |= name == "order";
+  }
+  if (!order_given && !options.element_type.empty()) options.order = order_of(options.element_type);
+  check(options);
+  return options;
+}
+
+std::string option_text(const MeshOptions& options, const OptionSpec& option) {
+  return std::visit(Overloaded{
+                        [&](double MeshOptions::*m) { return number_text(options.*m); },
+                        [&](int MeshOptions::*m) { return std::to_string(options.*m); },
+                        [&](bool MeshOptions::*m) { return std::string(options.*m ? "true" : "false"); },
+                        [&](std::string MeshOptions::*m) { return options.*m; },
+                        [&](FaceLabels MeshOptions::*m) {
+                          std::string text;
+                          for (const auto& [face, label] : options.*m)
+                            text += (text.empty() ? "Face" : ",Face") + std::to_string(face) + "=" + kLabelNames.at(label);
+                          return text;
+                        },
+                    },
+                    option.member);
+}
+
+void check(const MeshOptions& options) {
+  for (const OptionSpec& option : option_table()) {
+    if (const auto* m = std::get_if<double MeshOptions::*>(&option.member)) check_bounds(option, options.*(*m));
+    if (const auto* m = std::get_if<int MeshOptions::*>(&option.member)) check_bounds(option, options.*(*m));
+    if (const auto* m = std::get_if<std::string MeshOptions::*>(&option.member)) {
+      const std::string& word = options.*(*m);
+      if (word.empty() || std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end()) continue;
+      std::string all;
+      for (const std::string& choice : option.choices) all += (all.empty() ? "" : ", ") + choice;
+      throw InvalidInput(flag(option.name) + ": '" + word + "' is not one of " + all);
+    }
+  }
+  if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1)
+    throw InvalidInput("give only one of --size, --hexes and --coarsest");
+  if (!options.element_type.empty() && order_of(options.element_type) != options.order)
+    throw InvalidInput("--element-type " + options.element_type + " is of order " + std::to_string(order_of(options.element_type)) +
+                       ", but --order " + std::to_string(options.order) + " is asked for");
+}
+
+void check(const MeshOptions& options, double diagonal, int face_count) {
+  check(options);
+  if (options.size > diagonal) {
+    char text[160];
+    std::snprintf(text, sizeof text, "--size %g mm is larger than the part (bounding-box diagonal %g mm)", options.size, diagonal);
+    throw InvalidInput(text);
+  }
+  for (const auto& [face, label] : options.labels) {
+    if (face > face_count)
+      throw InvalidInput("--labels: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
+  }
+}
+
+double effective_size(const MeshOptions& options, double diagonal) { return options.size > 0 ? options.size : diagonal / kSizesPerDiagonal; }
+
+std::string effective_element_type(const MeshOptions& options) {
+  if (!options.element_type.empty()) return options.element_type;
+  return options.order == 2 ? "C3D20" : "C3D8";
+}
+
+}  // namespace polycube

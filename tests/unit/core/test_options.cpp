@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "core/options.h"
+
+namespace polycube {
+namespace {
+
+using testing::HasSubstr;
+using Given = std::vector<std::pair<std::string, std::string>>;
+
+std::string complaint(const Given& given) {
+  try {
+    parse_options(given);
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Options, DefaultsAreValidAndReadBack) {
+  const MeshOptions defaults;
+  EXPECT_NO_THROW(check(defaults));
+  for (const OptionSpec& option : option_table()) {
+    if (option.zero_is_unset || option_text(defaults, option).empty()) continue;
+    EXPECT_EQ(option_text(parse_options({{option.name, option_text(defaults, option)}}), option), option_text(defaults, option)) << option.name;
+  }
+}
+
+TEST(Options, EveryOptionIsDescribed) {
+  EXPECT_GE(option_table().size(), 11u);
+  for (const OptionSpec& option : option_table()) {
+    EXPECT_FALSE(option.meaning.empty()) << option.name;
+    const std::string type = option_type(option);
+    if (type == "double" || type == "int") {
+      EXPECT_LT(option.min, option.max) << option.name;
+    }
+  }
+}
+
+TEST(Options, ReadsEveryType) {
+  const MeshOptions o = parse_options({{"size", "2.5"}, {"order", "1"}, {"element_type", "C3D8I"}, {"labels", "Face7=-Z,Face3=+X"}});
+  EXPECT_EQ(o.size, 2.5);
+  EXPECT_EQ(o.order, 1);
+  EXPECT_EQ(effective_element_type(o), "C3D8I");
+  EXPECT_EQ(o.labels, (FaceLabels{{3, 0}, {7, 5}}));
+  EXPECT_TRUE(parse_options({{"coarsest", "True"}}).coarsest);
+}
+
+TEST(Options, ElementTypeBringsItsOrder) {
+  EXPECT_EQ(parse_options({{"element_type", "C3D8I"}}).order, 1);
+  EXPECT_EQ(parse_options({{"element_type", "C3D20R"}}).order, 2);
+  EXPECT_THAT(complaint({{"element_type", "C3D8I"}, {"order", "2"}}), HasSubstr("order 1"));
+}
+
+TEST(Options, RefusesBadSizesInOneLine) {
+  for (const char* bad : {"0", "-1", "nan", "inf", "", "abc", "1mm", "1e400", "-0"}) {
+    const std::string text = complaint({{"size", bad}});
+    EXPECT_THAT(text, HasSubstr("--size")) << bad;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+}
+
+TEST(Options, RefusesOthers) {
+  EXPECT_THAT(complaint({{"order", "3"}}), HasSubstr("--order"));
+  EXPECT_THAT(complaint({{"hexes", "1.5"}}), HasSubstr("--hexes"));
+  EXPECT_THAT(complaint({{"element_type", "C3D10"}}), HasSubstr("C3D20R"));
+  EXPECT_THAT(complaint({{"time_limit", "0"}}), HasSubstr("--time-limit"));
+  EXPECT_THAT(complaint({{"size", "1"}, {"hexes", "10"}}), HasSubstr("only one"));
+  EXPECT_THAT(complaint({{"colour", "red"}}), HasSubstr("colour"));
+  for (const char* bad : {"Face=+X", "Face1", "Face0=+X", "Edge1=+X", "Face1=X", "Face1=+X,Face1=-X", "Face1x=+X"})
+    EXPECT_THAT(complaint({{"labels", bad}}), HasSubstr("--labels")) << bad;
+}
+
+TEST(Options, AgainstThePart) {
+  MeshOptions o;
+  o.size = 11;
+  EXPECT_THROW(check(o, 10, 6), InvalidInput);
+  EXPECT_NO_THROW(check(o, 12, 6));
+  o.labels = {{7, 0}};
+  EXPECT_THROW(check(o, 12, 6), InvalidInput);
+  EXPECT_DOUBLE_EQ(effective_size(MeshOptions{}, 60), 2);
+}
+
+}  // namespace
+}  // namespace polycube

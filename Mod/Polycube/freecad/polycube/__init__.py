@@ -1,0 +1,24 @@
+"""All-hexahedral FEM meshes of CAD solids.
+
+    from freecad import polycube
+    result = polycube.mesh(shape_or_object, size=5, order=2)      # arrays and report, no document needed
+    obj = polycube.create_fem_mesh(part_object, size=5)           # a FEM mesh object in the part's document
+
+Works in FreeCAD and freecadcmd; nothing here needs a window. The work itself runs in a child process.
+FreeCAD imports this package at start, so it imports nothing heavy.
+"""
+
+from .api import create_fem_mesh, mesh, options, update_fem_mesh
+from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
+
+__version__ = "0.1.0"
+__all__ = [
+    "Cancelled",
+    "InvalidInput",
+    "PolycubeError",
+    "StageFailed",
+    "create_fem_mesh",
+    "mesh",
+    "options",
+    "update_fem_mesh",
+]

@@ -1,0 +1,99 @@
+"""What scripts call. No window needed."""
+
+from contextlib import contextmanager
+
+from .errors import InvalidInput
+
+
+def options():
+    """The mesher's options: list of dicts with name, unit, meaning, type, default, min, max, choices, advanced."""
+    from . import option_table
+
+    return option_table.table()
+
+
+def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=None, **more):
+    """All-hexahedral mesh of one solid.
+
+    shape_or_object: Part.Shape, or a document object that has one.
+    size: edge length in mm; None is the bounding box's diagonal / 30. order: 1 or 2. `more`: see options().
+    progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
+    Returns a MeshResult (arrays and report). Raises InvalidInput, StageFailed, Cancelled.
+    """
+    from . import job, option_table, shapes
+
+    given = _given(size=size, order=order, **more)
+    option_table.check_names(given)
+    if size is not None and not float(size) > 0:
+        raise InvalidInput("size: {} is not a positive length in mm".format(size))
+    shape = shapes.shape_of(shape_or_object)
+    shapes.check_solid(shape)
+    with job.Job(shape, given) as work:
+        return job.run(work, progress, log, cancel)
+
+
+def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh", progress=None, log=None, cancel=None, **more):
+    """Meshes the document object `part` and returns a new FEM mesh object in its document, in one undo step.
+
+    The mesh object joins `analysis` if one is given. Raises like mesh(); the document is then unchanged.
+    """
+    from . import objects
+
+    _check_object(part)
+    result = mesh(part, size, order, progress, log, cancel, **more)
+    with transaction(part.Document, "Hexahedral mesh from shape"):
+        obj = objects.make(part.Document, part, name)
+        if analysis:
+            analysis.addObject(obj)
+        _warn(obj, objects.set_mesh(obj, result, _given(size=size, order=order, **more)))
+    return obj
+
+
+def update_fem_mesh(obj, progress=None, log=None, cancel=None):
+    """Meshes again with the object's own shape and options, in one undo step. Raises like mesh(); the object is then unchanged."""
+    from . import objects, option_table
+
+    part = objects.part_of(obj)
+    _check_object(part)
+    given = option_table.read(obj)
+    result = mesh(part, progress=progress, log=log, cancel=cancel, **given)
+    with transaction(obj.Document, "Hexahedral mesh"):
+        _warn(obj, objects.set_mesh(obj, result, given))
+    return obj
+
+
+@contextmanager
+def transaction(document, name):
+    """One undo step, taken back on an error; part of the caller's step where one is open already."""
+    import FreeCAD
+
+    # A document reports a transaction only once it has changed something; the application knows of it at once.
+    own = not (document.HasPendingTransaction or FreeCAD.getActiveTransaction())
+    if own:
+        document.openTransaction(name)
+    try:
+        yield
+    except BaseException:
+        if own:
+            document.abortTransaction()
+            FreeCAD.closeActiveTransaction(True)
+        raise
+    if own:
+        document.commitTransaction()
+        FreeCAD.closeActiveTransaction()
+
+
+def _given(**values):
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _check_object(part):
+    if part is None or not hasattr(part, "Document"):
+        raise InvalidInput("a document object with a shape is needed")
+
+
+def _warn(obj, warnings):
+    import FreeCAD
+
+    for line in warnings:
+        FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, line))

@@ -1,0 +1,22 @@
+"""The ways a call can end without a mesh."""
+
+
+class PolycubeError(Exception):
+    """Base of all errors raised on purpose; the message is one line."""
+
+
+class InvalidInput(PolycubeError, ValueError):
+    """The caller's fault: a bad shape or option."""
+
+
+class StageFailed(PolycubeError, RuntimeError):
+    """No valid mesh could be made of valid input."""
+
+    def __init__(self, message, stage="", entities=()):
+        super().__init__(message)
+        self.stage = stage
+        self.entities = list(entities)
+
+
+class Cancelled(PolycubeError, RuntimeError):
+    """The user cancelled, or the time limit passed."""

@@ -1,0 +1,86 @@
+"""A Fem.FemMesh from the arrays, and the groups that FreeCAD's solvers look for."""
+
+from . import engine
+
+#: Constraints that FreeCAD 0.20 silently leaves out on hexahedra: its own search knows tetrahedra only.
+_TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
+
+
+def build(result):
+    """Fem.FemMesh with cells, boundary quads and edges in SMESH order, and groups Face3, Edge5, Vertex2, Solid1.
+
+    Node i of the arrays is node i + 1. Cell i is element i + 1; quads follow the cells, edges follow the quads.
+    """
+    import Fem
+
+    polycube = engine.load()
+    second = result.order == 2
+    mesh = Fem.FemMesh()
+    for number, (x, y, z) in enumerate(result.nodes.tolist(), 1):
+        mesh.addNode(x, y, z, number)
+    number = 0
+    cells = result.hexes[:, polycube.SMESH_HEX20 if second else polycube.SMESH_HEX8] + 1
+    for number, row in enumerate(cells.tolist(), number + 1):
+        mesh.addVolume(row, number)
+    quads = result.quads[:, polycube.SMESH_QUAD8 if second else polycube.SMESH_QUAD4] + 1
+    for number, row in enumerate(quads.tolist(), number + 1):
+        mesh.addFace(row, number)
+    for number, row in enumerate((result.segments + 1).tolist(), number + 1):
+        mesh.addEdge(row, number)
+    offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(quads), "nodes": 1}
+    kinds = {"Face": ("Face", "quads"), "Edge": ("Edge", "segments"), "Vertex": ("Node", "nodes"), "Solid": ("Volume", "hexes")}
+    for name, parts in result.groups.items():
+        kind, what = kinds[name.rstrip("0123456789")]
+        add_group(mesh, name, kind, (parts[what] + offsets[what]).tolist())
+    return mesh
+
+
+def add_group(mesh, name, kind, elements):
+    """Adds a group of `kind` Node, Edge, Face or Volume."""
+    if elements:
+        mesh.addGroupElements(mesh.addGroup(name, kind), elements)
+
+
+def add_constraint_groups(mesh, result, part, analysis):
+    """Adds the groups that FreeCAD's own search by geometry would not find by itself; returns warnings, one line each.
+
+    A group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So it is written only where the
+    search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Materials get `<Material>_Volumes` where there are several.
+    """
+    warnings, node_groups = [], []
+    materials = []
+    for member in analysis.Group:
+        kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
+        if kind in _TETRAHEDRA_ONLY or member.TypeId in _TETRAHEDRA_ONLY:
+            what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY[member.TypeId]
+            warnings.append("{}: FreeCAD cannot apply {} to hexahedra".format(member.Label, what))
+        if kind in ("Fem::MaterialCommon", "Fem::Material"):
+            materials.append(member)
+        elif member.isDerivedFrom("Fem::Constraint"):
+            references = _references(member, part)
+            warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name not in result.groups]
+            references = [name for name in references if name in result.groups and not name.startswith("Solid")]
+            nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
+            if references and set(nodes) - _found(mesh, part, references):
+                node_groups.append((member.Name + "_Nodes", nodes))
+                if member.isDerivedFrom("Fem::ConstraintForce"):
+                    warnings.append("{}: some curved edges had to stay straight; part of the force may get lost, use pressure".format(member.Label))
+    # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
+    for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
+        add_group(mesh, name, "Node", nodes)
+    if len(materials) > 1:
+        for material in sorted(materials, key=lambda member: (len(member.Name), member.Name)):
+            if any(obj == part for obj, _ in material.References):
+                add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
+    return warnings
+
+
+def _references(member, part):
+    """Names of the part's entities that a constraint refers to."""
+    return [name for obj, names in getattr(member, "References", []) if obj == part for name in names if name]
+
+
+def _found(mesh, part, names):
+    """Node numbers that FreeCAD's search finds on these entities."""
+    search = {"Face": mesh.getNodesByFace, "Edge": mesh.getNodesByEdge, "Vertex": mesh.getNodesByVertex}
+    return {node for name in names for node in search[name.rstrip("0123456789")](part.Shape.getElement(name))}

@@ -1,0 +1,152 @@
+"""One meshing job: a folder for the child process, its command, its messages, its result.
+
+A child process keeps a crash of the CAD kernel or of the tetrahedral mesher out of FreeCAD and can be stopped at any moment.
+The window drives a Job with QProcess, the API with run().
+"""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+
+from . import engine, result
+from .errors import Cancelled, InvalidInput, StageFailed
+
+_KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
+
+
+class Job:
+    """A folder with shape and options, ready to run; close() removes it."""
+
+    def __init__(self, shape, options):
+        self.folder = tempfile.mkdtemp(prefix="polycube-")
+        with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
+            file.write(shape.exportBrepToString())
+        with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:
+            json.dump(options, file)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def command(self):
+        """Program and arguments of the child process."""
+        return [engine.python(), os.path.join(engine.HERE, "worker.py"), self.folder]
+
+    @staticmethod
+    def parse(line):
+        """("progress", (stage, fraction)) or ("log", text) from one line of the child's standard output."""
+        try:
+            message = json.loads(line)
+            if "progress" in message:
+                stage, fraction = message["progress"]
+                return "progress", (str(stage), float(fraction))
+            return "log", str(message["log"])
+        except (ValueError, KeyError, TypeError):
+            return "log", line
+
+    def finish(self, status, last_words=""):
+        """The MeshResult of a child that ended with `status`, or one of the errors. `last_words`: end of its standard error."""
+        if status == 0:
+            return result.load(self.folder)
+        path = os.path.join(self.folder, "error.json")
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                found = json.load(file)
+            if found["kind"] == "StageFailed":
+                raise StageFailed(found["message"], found["stage"], found["entities"])
+            raise _KINDS[found["kind"]](found["message"])
+        reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
+        raise StageFailed("the meshing process ended unexpectedly (status {}): {}".format(status, reason))
+
+
+def run(job, progress=None, log=None, cancel=None):
+    """Runs the job here and now. `progress(stage, fraction)`, `log(line)`; `cancel()` true kills the child: raises Cancelled."""
+    child = subprocess.Popen(
+        job.command(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        env=engine.environment(),
+        text=True,
+        start_new_session=True,
+    )
+    stopped = threading.Event()
+    watcher = _watch(child, cancel, stopped) if cancel else None
+    stderr = _Drain(child.stderr)
+    try:
+        for line in child.stdout:
+            kind, value = job.parse(line.rstrip("\n"))
+            if kind == "progress" and progress:
+                progress(*value)
+            elif kind == "log" and log:
+                log(value)
+        status = child.wait()
+    except BaseException:
+        kill_tree(child.pid)
+        child.wait()
+        raise
+    finally:
+        if watcher:
+            watcher.finished.set()
+            watcher.join()
+        last_words = stderr.text()
+    if stopped.is_set():
+        raise Cancelled("cancelled")
+    return job.finish(status, last_words)
+
+
+def kill_tree(pid):
+    """Kills the child and the processes it started: it leads a process group of its own where the system has such groups."""
+    try:
+        if hasattr(os, "killpg") and os.getpgid(pid) == pid:
+            os.killpg(pid, signal.SIGKILL)
+        else:
+            os.kill(pid, signal.SIGTERM)
+    except ProcessLookupError:
+        pass
+
+
+class _Drain(threading.Thread):
+    """Reads a pipe to its end, so that the child never blocks on it."""
+
+    def __init__(self, pipe):
+        super().__init__(daemon=True)
+        self._pipe = pipe
+        self._text = ""
+        self.start()
+
+    def run(self):
+        self._text = self._pipe.read()
+
+    def text(self):
+        self.join()
+        return self._text
+
+
+class _Watcher(threading.Thread):
+    def __init__(self, child, cancel, stopped):
+        super().__init__(daemon=True)
+        self.finished = threading.Event()
+        self._child, self._cancel, self._stopped = child, cancel, stopped
+
+    def run(self):
+        while not self.finished.wait(0.1):
+            if self._cancel():
+                self._stopped.set()
+                kill_tree(self._child.pid)
+                return
+
+
+def _watch(child, cancel, stopped):
+    watcher = _Watcher(child, cancel, stopped)
+    watcher.start()
+    return watcher

@@ -1,0 +1,152 @@
+"""The document object: a FEM mesh linked to the shape it was made from."""
+
+import json
+
+import FreeCAD
+
+from . import fem_mesh, option_table, shapes
+from .errors import InvalidInput
+
+EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
+
+#: type, name, group, meaning; all written by the mesher, none by the user
+_RESULTS = [
+    ("App::PropertyString", "MeshState", "Polycube Result", "Whether the mesh fits shape and options; recompute marks it, Apply meshes"),
+    ("App::PropertyInteger", "Hexahedra", "Polycube Result", "Number of cells"),
+    ("App::PropertyInteger", "NodeCount", "Polycube Result", "Number of nodes"),
+    ("App::PropertyFloat", "MinScaledJacobian", "Polycube Result", "Worst cell's quality: 1 is a cube, 0 is degenerate"),
+    ("App::PropertyFloat", "MeanScaledJacobian", "Polycube Result", "Mean quality of the cells"),
+    ("App::PropertyVolume", "MeshVolume", "Polycube Result", "Volume of the mesh"),
+    ("App::PropertyString", "Report", "Polycube Result", "The mesher's report, JSON"),
+    ("App::PropertyString", "MeshedOptions", "Polycube Result", "Options of the present mesh, JSON"),
+    ("App::PropertyFloatList", "MeshedShape", "Polycube Result", "Signature of the shape of the present mesh"),
+]
+_HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
+
+
+def make(document, part, name="PolycubeMesh"):
+    """A new mesh object without cells, linked to the document object `part`."""
+    for kind in ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython"):
+        try:
+            obj = document.addObject(kind, name)
+            break
+        except Exception as error:  # FreeCAD 0.20 does not have the first; its error is no Python class of its own
+            if kind == "Fem::FemMeshObjectPython":
+                raise
+            del error
+    PolycubeMesh(obj)
+    set_part(obj, part)
+    if FreeCAD.GuiUp:
+        from .view import PolycubeMeshView
+
+        PolycubeMeshView(obj.ViewObject)
+    return obj
+
+
+def part_of(obj):
+    """The document object that the mesh is made from: `Shape` in FreeCAD 1.x, `Part` in 0.20."""
+    return obj.Part if "Part" in obj.PropertiesList else obj.Shape
+
+
+def set_part(obj, part):
+    if "Part" in obj.PropertiesList:
+        obj.Part = part
+    else:
+        obj.Shape = part
+
+
+def is_polycube(obj):
+    return getattr(getattr(obj, "Proxy", None), "Type", None) == PolycubeMesh.Type
+
+
+def analysis_of(obj):
+    """The analysis that holds the object, or None."""
+    return next((parent for parent in obj.InList if parent.isDerivedFrom("Fem::FemAnalysis")), None)
+
+
+def set_mesh(obj, result, options):
+    """Gives the object its mesh. Call inside a transaction. Returns warnings, one line each."""
+    mesh = fem_mesh.build(result)
+    warnings = list(result.report.get("warnings", []))
+    analysis = analysis_of(obj)
+    if analysis:
+        warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis)
+    option_table.write(obj, options)
+    quality = result.report["quality"]
+    obj.FemMesh = mesh
+    obj.Hexahedra = len(result.hexes)
+    obj.NodeCount = len(result.nodes)
+    obj.MinScaledJacobian = quality["min_scaled_jacobian"]
+    obj.MeanScaledJacobian = quality["mean_scaled_jacobian"]
+    obj.MeshVolume = result.report["volume"]
+    obj.Report = json.dumps(result.report)
+    obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
+    obj.MeshedShape = shapes.signature(part_of(obj).Shape)
+    obj.MeshState = CURRENT
+    return warnings
+
+
+def state(obj):
+    """EMPTY, CURRENT or OUTDATED, from the object's properties and its shape as they are now."""
+    if not obj.FemMesh.VolumeCount:
+        return EMPTY
+    part = part_of(obj)
+    try:
+        same_options = obj.MeshedOptions == json.dumps(option_table.read(obj), sort_keys=True)
+    except InvalidInput:
+        same_options = False
+    if part and same_options and shapes.same(list(obj.MeshedShape), shapes.signature(part.Shape)):
+        return CURRENT
+    return OUTDATED
+
+
+class PolycubeMesh:
+    """Proxy of the mesh object. Recompute never meshes: it marks the mesh as out of date."""
+
+    Type = "Fem::FemMeshPolycube"
+
+    def __init__(self, obj):
+        obj.Proxy = self
+        self._add_properties(obj)
+
+    def _add_properties(self, obj):
+        if "Part" not in obj.PropertiesList and not obj.isDerivedFrom("Fem::FemMeshShapeBaseObject"):
+            obj.addProperty("App::PropertyLink", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
+        option_table.add_properties(obj)
+        for kind, name, group, meaning in _RESULTS:
+            if not hasattr(obj, name):
+                obj.addProperty(kind, name, group, meaning)
+                if name == "MeshState":
+                    obj.MeshState = EMPTY
+            # 1 read-only, 2 hidden
+            obj.setEditorMode(name, 2 if name in _HIDDEN else 1)
+
+    def execute(self, obj):
+        now = state(obj)
+        if obj.MeshState != now:
+            obj.MeshState = now
+
+    def onChanged(self, obj, name):
+        if name not in self._inputs(obj) or "Restore" in obj.State or not hasattr(obj, "MeshedShape"):
+            return
+        self.execute(obj)
+
+    @staticmethod
+    def _inputs(obj):
+        return ["Part", "Shape"] + [option_table.property_name(option) for option in option_table.document_options()]
+
+    def onDocumentRestored(self, obj):
+        try:
+            self._add_properties(obj)
+        except ImportError as error:
+            FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, error))
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    # FreeCAD 0.20's names for dumps and loads
+    __getstate__ = dumps
+    __setstate__ = loads

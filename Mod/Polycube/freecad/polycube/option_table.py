@@ -1,0 +1,113 @@
+"""Options as FreeCAD properties, made from the engine's table."""
+
+from . import engine
+from .errors import InvalidInput
+
+#: Names that FreeCAD users know from the Gmsh mesher.
+_FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder"}
+#: FreeCAD writes its own element types to the solver.
+_NOT_IN_FREECAD = {"element_type"}
+_ORDERS = ["1st", "2nd"]
+#: FreeCAD 0.20 has no property for times.
+_UNITS = {"mm": "App::PropertyLength", "degrees": "App::PropertyAngle"}
+
+
+def table():
+    """The engine's options: list of dicts with name, unit, meaning, type, default, min, max, choices, advanced."""
+    return engine.load().options()
+
+
+def document_options():
+    """The options that a mesh object has as properties."""
+    return [option for option in table() if option["name"] not in _NOT_IN_FREECAD]
+
+
+def property_name(option):
+    """FreeCAD's name of an option: time_limit is TimeLimit."""
+    return _FAMILIAR.get(option["name"]) or "".join(word.capitalize() for word in option["name"].split("_"))
+
+
+def check_names(options):
+    """Raises InvalidInput for an option that does not exist."""
+    known = [option["name"] for option in table()]
+    for name in options:
+        if name not in known:
+            raise InvalidInput("unknown option '{}'; options are {}".format(name, ", ".join(known)))
+
+
+def add_properties(obj):
+    """Adds the option properties that the object does not have yet, with their defaults."""
+    for option in document_options():
+        name, default = property_name(option), option["default"]
+        if hasattr(obj, name):
+            continue
+        group = "Polycube Advanced" if option["advanced"] else "Polycube"
+        kind = _property_type(option)
+        plain_unit = option["unit"] and option["unit"] not in _UNITS
+        obj.addProperty(kind, name, group, option["meaning"] + (" ({})".format(option["unit"]) if plain_unit else ""))
+        if option["name"] == "order":
+            setattr(obj, name, _ORDERS)
+            setattr(obj, name, _ORDERS[default - 1])
+        elif option["type"] == "string" and option["choices"]:
+            setattr(obj, name, option["choices"])
+            setattr(obj, name, default)
+        elif option["type"] == "labels":
+            setattr(obj, name, [])
+        elif option["type"] == "int":
+            setattr(obj, name, (default, int(option["min"]), int(min(option["max"], 2**31 - 1)), 1))
+        else:
+            setattr(obj, name, default)
+
+
+def _property_type(option):
+    if option["name"] == "order" or (option["type"] == "string" and option["choices"]):
+        return "App::PropertyEnumeration"
+    if option["type"] == "double":
+        return _UNITS.get(option["unit"], "App::PropertyFloat")
+    kinds = {"int": "App::PropertyIntegerConstraint", "bool": "App::PropertyBool", "labels": "App::PropertyStringList"}
+    return kinds.get(option["type"], "App::PropertyString")
+
+
+def read(obj):
+    """The object's options that are not at their default, by engine name."""
+    found = {}
+    for option in document_options():
+        value = getattr(obj, property_name(option))
+        if option["name"] == "order":
+            value = _ORDERS.index(value) + 1
+        elif option["type"] == "labels":
+            value = _labels(value)
+        elif option["type"] == "double":
+            value = float(getattr(value, "Value", value))
+        if value != option["default"] and value != {}:
+            found[option["name"]] = value
+    return found
+
+
+def write(obj, options):
+    """Sets the object's properties; options not named go back to their default."""
+    for option in document_options():
+        value = options.get(option["name"])
+        value = option["default"] if value is None else value
+        if option["name"] == "order":
+            value = _ORDERS[value - 1]
+        elif option["type"] == "labels":
+            value = ["{}={}".format(face if isinstance(face, str) else "Face{}".format(face), axis) for face, axis in dict(value or {}).items()]
+        if _current(obj, option) != value:
+            setattr(obj, property_name(option), value)
+
+
+def _current(obj, option):
+    value = getattr(obj, property_name(option))
+    return value.Value if hasattr(value, "Value") else value
+
+
+def _labels(lines):
+    """{"Face3": "+X"} from ["Face3=+X"]."""
+    labels = {}
+    for line in lines:
+        face, separator, axis = line.replace(" ", "").partition("=")
+        if not separator:
+            raise InvalidInput("label '{}' is not of the form Face3=+X".format(line))
+        labels[face] = axis
+    return labels

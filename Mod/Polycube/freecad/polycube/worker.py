@@ -1,0 +1,67 @@
+"""The child process: meshes one job folder and exits. Run as `python3 worker.py FOLDER`, without FreeCAD.
+
+The folder holds shape.brep and options.json; afterwards result.npz and report.json, or error.json. Standard output carries one JSON object per
+line: {"progress": [stage, fraction]} or {"log": line}. Exit status: 0 mesh written, 1 invalid input, 2 a stage failed, 3 cancelled.
+"""
+
+import json
+import os
+import sys
+
+import numpy
+
+import engine
+
+
+def say(**message):
+    sys.stdout.write(json.dumps(message) + "\n")
+    sys.stdout.flush()
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def write_json(path, value):
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(value, file)
+
+
+def flatten(mesh):
+    """Arrays of the mesh by name; groups as "group/<name>/<what>"."""
+    arrays = {
+        key: mesh[key] for key in ("nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "scaled_jacobian")
+    }
+    for name, parts in mesh["groups"].items():
+        for what, indices in parts.items():
+            arrays["group/{}/{}".format(name, what)] = indices
+    return arrays
+
+
+def run(folder):
+    polycube = engine.load()
+    try:
+        mesh = polycube.mesh(
+            brep=read(os.path.join(folder, "shape.brep")),
+            progress=lambda stage, fraction: say(progress=[stage, fraction]),
+            log=lambda line: say(log=line),
+            **json.loads(read(os.path.join(folder, "options.json"))),
+        ).to_dict()
+    except polycube.InvalidInput as error:
+        write_json(os.path.join(folder, "error.json"), {"kind": "InvalidInput", "message": str(error)})
+        return 1
+    except polycube.StageFailed as error:
+        found = {"kind": "StageFailed", "message": str(error), "stage": error.stage, "entities": list(error.entities)}
+        write_json(os.path.join(folder, "error.json"), found)
+        return 2
+    except polycube.Cancelled as error:
+        write_json(os.path.join(folder, "error.json"), {"kind": "Cancelled", "message": str(error)})
+        return 3
+    write_json(os.path.join(folder, "report.json"), mesh["report"])
+    numpy.savez(os.path.join(folder, "result.npz"), **flatten(mesh))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(run(sys.argv[1]))

@@ -1,0 +1,334 @@
+"""The public API and the document object, without a window."""
+
+import math
+import os
+import tempfile
+import unittest
+
+import FreeCAD
+import Part
+from FreeCAD import Rotation, Vector
+
+from freecad import polycube
+from freecad.polycube import api, job, objects, shapes
+
+
+def moved(shape, placement=None, scale=1.0):
+    """A copy that was scaled about the origin and then placed."""
+    copy = shape.copy()
+    copy.scale(scale)
+    if placement:
+        copy.Placement = placement.multiply(copy.Placement)
+    return copy
+
+
+class DocumentTest(unittest.TestCase):
+    def setUp(self):
+        self.document = FreeCAD.newDocument()
+        self.document.UndoMode = 1
+        self.addCleanup(self.close)
+
+    def close(self):
+        if self.document.Name in FreeCAD.listDocuments():
+            FreeCAD.closeDocument(self.document.Name)
+
+    def box(self, length=40, width=20, height=10):
+        box = self.document.addObject("Part::Box", "Box")
+        box.Length, box.Width, box.Height = length, width, height
+        self.document.recompute()
+        return box
+
+    def feature(self, shape, name="Feature"):
+        feature = self.document.addObject("Part::Feature", name)
+        feature.Shape = shape
+        return feature
+
+
+class MeshArrays(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.result = polycube.mesh(Part.makeBox(40, 20, 10), size=5)
+
+    def test_cells_fill_the_box(self):
+        result = self.result
+        self.assertEqual(result.order, 2)
+        self.assertEqual(result.hexes.shape[1], 20)
+        self.assertEqual(len(result.scaled_jacobian), len(result.hexes))
+        self.assertGreater(result.scaled_jacobian.min(), 0)
+        self.assertAlmostEqual(result.report["volume"], 8000, delta=1e-6 * 8000)
+
+    def test_boundary_is_grouped_by_cad_entity(self):
+        groups = self.result.groups
+        for name in ["Face{}".format(i) for i in range(1, 7)] + ["Edge{}".format(i) for i in range(1, 13)]:
+            self.assertIn(name, groups)
+        self.assertEqual({len(groups["Vertex{}".format(i)]["nodes"]) for i in range(1, 9)}, {1})
+        self.assertEqual(sum(len(groups["Face{}".format(i)]["quads"]) for i in range(1, 7)), len(self.result.quads))
+
+    def test_first_order(self):
+        result = polycube.mesh(Part.makeBox(40, 20, 10), size=5, order=1)
+        self.assertEqual(result.hexes.shape, (len(self.result.hexes), 8))
+        self.assertEqual(result.quads.shape[1], 4)
+
+    def test_progress_and_log_arrive(self):
+        stages, lines = [], []
+        polycube.mesh(Part.makeBox(10, 10, 10), size=5, progress=lambda stage, fraction: stages.append((stage, fraction)), log=lines.append)
+        self.assertTrue(stages)
+        self.assertTrue(all(0 <= fraction <= 1 for _, fraction in stages))
+
+    def test_cancel(self):
+        with self.assertRaises(polycube.Cancelled):
+            polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, cancel=lambda: True)
+
+    def test_no_folder_is_left(self):
+        before = self.job_folders()
+        polycube.mesh(Part.makeBox(10, 10, 10), size=5)
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.mesh(Part.makeBox(10, 10, 10), size=1e6)
+        self.assertEqual(self.job_folders(), before)
+
+    @staticmethod
+    def job_folders():
+        return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-")}
+
+
+class Invariance(unittest.TestCase):
+    """A part turned, moved and scaled gives the same cells."""
+
+    def check(self, shape, size):
+        base = polycube.mesh(shape, size=size)
+        quality = base.report["quality"]["min_scaled_jacobian"]
+        turn = FreeCAD.Placement(Vector(13, -7, 29), Rotation(Vector(1, 2, 3), 37))
+        for name, other, scale in (
+            ("turned", moved(shape, placement=turn), 1),
+            ("small", moved(shape, scale=1e-3), 1e-3),
+            ("large", moved(shape, scale=1e3), 1e3),
+        ):
+            with self.subTest(name):
+                result = polycube.mesh(other, size=size * scale)
+                self.assertEqual(len(result.hexes), len(base.hexes))
+                self.assertAlmostEqual(result.report["quality"]["min_scaled_jacobian"], quality, delta=1e-3)
+
+    def test_box(self):
+        self.check(Part.makeBox(40, 20, 10), 5)
+
+    def test_cylinder(self):
+        self.check(Part.makeCylinder(10, 30), 3)
+
+
+class BadInput(DocumentTest):
+    """One clear line, and the document stays as it was."""
+
+    def check(self, part, **options):
+        before = [obj.Name for obj in self.document.Objects]
+        undo = list(self.document.UndoNames)
+        with self.assertRaises(polycube.InvalidInput) as caught:
+            polycube.create_fem_mesh(part, **options)
+        message = str(caught.exception)
+        self.assertTrue(message)
+        self.assertNotIn("\n", message)
+        self.assertEqual([obj.Name for obj in self.document.Objects], before)
+        self.assertEqual(list(self.document.UndoNames), undo)
+        self.assertFalse(self.document.HasPendingTransaction)
+        return message
+
+    def test_empty_compound(self):
+        self.check(self.feature(Part.makeCompound([])))
+
+    def test_null_shape(self):
+        self.check(self.document.addObject("Part::Feature", "Nothing"))
+
+    def test_open_shell(self):
+        self.assertIn("solid", self.check(self.feature(Part.makeShell(Part.makeBox(1, 1, 1).Faces[:5]))))
+
+    def test_two_solids(self):
+        two = Part.makeCompound([Part.makeBox(1, 1, 1), Part.makeBox(1, 1, 1, Vector(5, 0, 0))])
+        self.assertIn("2 solids", self.check(self.feature(two)))
+
+    def test_zero_volume(self):
+        flat = FreeCAD.Matrix()
+        flat.scale(1, 1, 1e-13)
+        self.check(self.feature(Part.makeBox(10, 10, 10).transformGeometry(flat)))
+
+    def test_size(self):
+        box = self.box()
+        for size in (0, -1, math.nan, math.inf, 1e4):
+            with self.subTest(size=size):
+                self.assertIn("size", self.check(box, size=size))
+
+    def test_unknown_option(self):
+        self.assertIn("seize", self.check(self.box(), seize=3))
+
+    def test_order(self):
+        self.assertIn("order", self.check(self.box(), order=3))
+
+    def test_not_a_shape(self):
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.mesh("Box")
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.create_fem_mesh(None)
+
+    def test_sketch_without_solid(self):
+        self.check(self.feature(Part.makeCircle(3)))
+
+
+class FemMeshObject(DocumentTest):
+    def test_create_is_one_undo_step(self):
+        box = self.box()
+        self.document.clearUndos()
+        obj = polycube.create_fem_mesh(box, size=5)
+        name = obj.Name
+        self.assertEqual(len(self.document.UndoNames), 1)
+        self.assertTrue(obj.isDerivedFrom("Fem::FemMeshObject"))
+        self.assertEqual(obj.FemMesh.HexaCount, obj.Hexahedra)
+        self.assertEqual(obj.FemMesh.FaceCount, obj.FemMesh.QuadrangleCount)
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        self.assertAlmostEqual(obj.MeshVolume.Value, 8000, delta=1e-3)
+        self.document.undo()
+        self.assertIsNone(self.document.getObject(name))
+        self.document.redo()
+        self.assertEqual(self.document.getObject(name).FemMesh.HexaCount, self.document.getObject(name).Hexahedra)
+
+    def test_joins_the_callers_transaction(self):
+        box = self.box()
+        self.document.clearUndos()
+        self.document.openTransaction("Mine")
+        polycube.create_fem_mesh(box, size=5)
+        self.document.commitTransaction()
+        self.assertEqual(list(self.document.UndoNames), ["Mine"])
+
+    def test_groups_and_numbering(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        mesh = obj.FemMesh
+        groups = {mesh.getGroupName(group): (mesh.getGroupElementType(group), mesh.getGroupElements(group)) for group in mesh.Groups}
+        self.assertEqual({kind for name, (kind, _) in groups.items() if name.startswith("Face")}, {"Face"})
+        self.assertEqual({kind for name, (kind, _) in groups.items() if name.startswith("Edge")}, {"Edge"})
+        self.assertEqual(set(groups["Solid1"][1]), set(mesh.Volumes))
+        part = objects.part_of(obj)
+        for name, search in (("Face3", mesh.getNodesByFace), ("Edge5", mesh.getNodesByEdge)):
+            found = set(search(part.Shape.getElement(name)))
+            grouped = {node for element in groups[name][1] for node in mesh.getElementNodes(element)}
+            self.assertEqual(found, grouped, name)
+        point = mesh.getNodeById(groups["Vertex2"][1][0])
+        self.assertLess((point - part.Shape.Vertexes[1].Point).Length, 1e-7)
+
+    def test_cells_wind_as_smesh_wants(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        for cell in obj.FemMesh.Volumes:
+            n1, n2, _, n4, n5 = [obj.FemMesh.getNodeById(node) for node in obj.FemMesh.getElementNodes(cell)[:5]]
+            self.assertLess((n2 - n1).cross(n4 - n1).dot(n5 - n1), 0)
+
+    def test_mid_nodes_between_their_corners(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+        for cell in obj.FemMesh.Volumes[:20]:
+            points = [obj.FemMesh.getNodeById(node) for node in obj.FemMesh.getElementNodes(cell)]
+            for middle, (a, b) in enumerate(edges, 8):
+                self.assertLess((points[middle] - (points[a] + points[b]) * 0.5).Length, 1e-9)
+
+    def test_out_of_date_when_the_shape_changes(self):
+        box = self.box()
+        obj = polycube.create_fem_mesh(box, size=5)
+        cells = obj.FemMesh.HexaCount
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        box.Length = 80
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        self.assertEqual(obj.FemMesh.HexaCount, cells, "recompute must not mesh")
+        polycube.update_fem_mesh(obj)
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        self.assertGreater(obj.FemMesh.HexaCount, cells)
+
+    def test_out_of_date_when_an_option_changes(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        obj.CharacteristicLengthMax = 2.5
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        obj.CharacteristicLengthMax = 5
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        obj.ElementOrder = "1st"
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+    def test_moved_part_is_out_of_date(self):
+        box = self.box()
+        obj = polycube.create_fem_mesh(box, size=5)
+        box.Placement.Base = Vector(1e-3, 0, 0)
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+    def test_a_failed_update_changes_nothing(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        cells = obj.FemMesh.HexaCount
+        obj.CharacteristicLengthMax = 1e5
+        self.document.clearUndos()
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.update_fem_mesh(obj)
+        self.assertEqual(obj.FemMesh.HexaCount, cells)
+        self.assertEqual(list(self.document.UndoNames), [])
+
+    def test_save_and_restore(self):
+        box = self.box()
+        obj = polycube.create_fem_mesh(box, size=5)
+        cells, nodes, name = obj.FemMesh.HexaCount, obj.FemMesh.NodeCount, obj.Name
+        groups = sorted(obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "part.FCStd")
+            self.document.saveAs(path)
+            FreeCAD.closeDocument(self.document.Name)
+            self.document = FreeCAD.openDocument(path)
+            obj = self.document.getObject(name)
+            self.assertTrue(objects.is_polycube(obj))
+            self.assertEqual((obj.FemMesh.HexaCount, obj.FemMesh.NodeCount), (cells, nodes))
+            self.assertEqual(sorted(obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups), groups)
+            self.assertEqual(obj.CharacteristicLengthMax.Value, 5)
+            self.assertEqual(obj.MeshState, objects.CURRENT)
+            obj.touch()
+            self.document.recompute()
+            self.assertEqual(obj.MeshState, objects.CURRENT, "a document read back has the same shape")
+            self.document.getObject("Box").Width = 30
+            self.document.recompute()
+            self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+    def test_old_documents_get_missing_properties(self):
+        obj = polycube.create_fem_mesh(self.box(), size=5)
+        obj.removeProperty("TimeLimit")
+        obj.Proxy.onDocumentRestored(obj)
+        self.assertTrue(hasattr(obj, "TimeLimit"))
+
+    def test_options_are_properties(self):
+        obj = objects.make(self.document, self.box())
+        for option in polycube.options():
+            if option["name"] != "element_type":
+                name = objects.option_table.property_name(option)
+                self.assertTrue(hasattr(obj, name), name)
+        self.assertEqual(objects.option_table.read(obj), {})
+        given = {"size": 4.0, "order": 1, "labels": {"Face3": "+X"}}
+        objects.option_table.write(obj, given)
+        self.assertEqual(objects.option_table.read(obj), given)
+
+
+class Helpers(unittest.TestCase):
+    def test_signature_tells_shapes_apart(self):
+        box = shapes.signature(Part.makeBox(1, 2, 3))
+        self.assertTrue(shapes.same(box, shapes.signature(Part.makeBox(1, 2, 3))))
+        self.assertFalse(shapes.same(box, shapes.signature(Part.makeBox(1, 2, 3.00001))))
+        self.assertFalse(shapes.same(box, shapes.signature(Part.makeBox(1, 2, 3, Vector(0.001, 0, 0)))))
+        self.assertFalse(shapes.same([], []))
+
+    def test_a_crashed_child_is_reported(self):
+        with job.Job(Part.makeBox(1, 1, 1), {}) as work:
+            with self.assertRaises(polycube.StageFailed) as caught:
+                work.finish(-11, "some text\nSegmentation fault\n")
+        self.assertIn("-11", str(caught.exception))
+        self.assertIn("Segmentation fault", str(caught.exception))
+
+    def test_transaction_is_taken_back(self):
+        document = FreeCAD.newDocument()
+        document.UndoMode = 1
+        try:
+            with self.assertRaises(KeyError):
+                with api.transaction(document, "Test"):
+                    document.addObject("Part::Box", "Box")
+                    raise KeyError
+            self.assertEqual(document.Objects, [])
+        finally:
+            FreeCAD.closeDocument(document.Name)

@@ -32,13 +32,13 @@ struct CadEdge {
 };
 
 struct FacePoint {
-  Vec3 point;            ///< on the trimmed face
-  Vec2 uv;
+  Vec3 point = Vec3::Zero();  ///< on the trimmed face
+  Vec2 uv = Vec2::Zero();
   double distance = 0;   ///< mm, from the asked point
 };
 
 struct EdgePoint {
-  Vec3 point;
+  Vec3 point = Vec3::Zero();
   double t = 0;          ///< curve parameter
   double distance = 0;   ///< mm
 };

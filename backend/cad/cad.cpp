@@ -1,0 +1,169 @@
+#include "cad/cad.h"
+
+#include <BRepTools.hxx>
+#include <Standard_Failure.hxx>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "cad/shape.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+std::shared_ptr<const CadModel::Shape> checked(const TopoDS_Shape& shape) {
+  validate(shape);
+  try {
+    return describe(shape);
+  } catch (const Standard_Failure& failure) {
+    throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + std::string(failure.GetMessageString()));
+  }
+}
+
+}  // namespace
+
+CadModel CadModel::read(const std::string& path) {
+  const TopoDS_Shape shape = read_shape(path);
+  try {
+    return CadModel(checked(shape));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  }
+}
+
+CadModel CadModel::from_brep(const std::string& text) { return CadModel(checked(parse_brep(text))); }
+
+std::string CadModel::to_brep() const {
+  std::ostringstream stream;
+  BRepTools::Write(shape_->shape, stream, false, false, TopTools_FormatVersion_VERSION_1);
+  return stream.str();
+}
+
+int CadModel::face_count() const { return static_cast<int>(shape_->faces.size()); }
+int CadModel::edge_count() const { return static_cast<int>(shape_->edges.size()); }
+int CadModel::vertex_count() const { return static_cast<int>(shape_->vertices.size()); }
+const CadFace& CadModel::face(int id) const { return shape_->faces.at(static_cast<std::size_t>(id - 1)); }
+const CadEdge& CadModel::edge(int id) const { return shape_->edges.at(static_cast<std::size_t>(id - 1)); }
+const Vec3& CadModel::vertex(int id) const { return shape_->vertices.at(static_cast<std::size_t>(id - 1)); }
+
+Vec3 CadModel::box_min() const { return shape_->box.min(); }
+Vec3 CadModel::box_max() const { return shape_->box.max(); }
+double CadModel::diagonal() const { return shape_->box.diagonal().norm(); }
+double CadModel::volume() const { return shape_->volume; }
+
+int CadModel::euler_characteristic() const {
+  // A face cut open along its seams is a disk with one hole for each wire but the first.
+  int result = vertex_count() + face_count();
+  for (const CadEdge& edge : shape_->edges) result -= edge.degenerate ? 0 : 1;
+  for (const FaceGeometry& face : shape_->face_geometry) result -= std::max(0, face.wires - 1);
+  return result;
+}
+
+FacePoint CadModel::project_to_face(int id, const Vec3& p, const Vec2* seed) const {
+  const FaceGeometry& face = shape_->face(id);
+  FacePoint best;
+  best.distance = std::numeric_limits<double>::infinity();
+  const auto try_foot = [&](const Vec2& start) {
+    bool converged = false;
+    const Vec2 uv = foot_on_surface(face, p, start, &converged);
+    if (!converged || !inside(*shape_, face, uv)) return false;
+    const Vec3 point = face_point(id, uv);
+    const double distance = (point - p).norm();
+    if (distance < best.distance) best = {point, uv, distance};
+    return true;
+  };
+  if (seed || face.samples.empty()) {
+    if (try_foot(seed ? *seed : Vec2::Zero())) return best;
+  }
+  if (!face.samples.empty()) {
+    std::size_t nearest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < face.samples.size(); ++i) {
+      const double distance = (face.samples[i] - p).squaredNorm();
+      if (distance < least) least = distance, nearest = i;
+    }
+    // A foot point farther away than the sample means that Newton's method left the valley it started in.
+    if (try_foot(face.sample_uv[nearest]) && best.distance <= std::sqrt(least) * (1 + 1e-9)) return best;
+    if (std::sqrt(least) < best.distance) best = {face.samples[nearest], face.sample_uv[nearest], std::sqrt(least)};
+  }
+  for (const Vec2& uv : face.tips) {
+    const Vec3 point = face_point(id, uv);
+    if ((point - p).norm() < best.distance) best = {point, uv, (point - p).norm()};
+  }
+  int border_edge = 0;
+  double border_t = 0;
+  for (const int e : face.border_edges) {
+    const EdgeGeometry& edge = shape_->edge(e);
+    if (edge.box.exteriorDistance(p) >= best.distance) continue;
+    const EdgePoint candidate = nearest_on_edge(edge, p, nullptr);
+    if (candidate.distance >= best.distance) continue;
+    best.point = candidate.point;
+    best.distance = candidate.distance;
+    border_edge = e;
+    border_t = candidate.t;
+  }
+  if (border_edge == 0) {
+    if (std::isfinite(best.distance)) return best;
+    // A face without a border in space (whole sphere, torus): its foot point did not converge, any pole serves.
+    const Vec2 uv = wrap(face, foot_on_surface(face, p, face.domain.center(), nullptr));
+    const Vec3 point = face_point(id, uv);
+    return {point, uv, (point - p).norm()};
+  }
+  if (face.closed_form.index() != 0) {
+    best.uv = foot_on_surface(face, best.point, Vec2::Zero(), nullptr);
+  } else {
+    for (const EdgeUse& use : shape_->edge(border_edge).uses) {
+      if (use.face != id) continue;
+      const gp_Pnt2d uv = use.curve->Value(border_t);
+      best.uv = {uv.X(), uv.Y()};
+    }
+  }
+  return best;
+}
+
+EdgePoint CadModel::project_to_edge(int id, const Vec3& p, const double* seed) const {
+  const EdgeGeometry& edge = shape_->edge(id);
+  if (edge.curve.IsNull()) {
+    const Vec3& point = vertex(this->edge(id).vertices[0]);
+    return {point, edge.first, (point - p).norm()};
+  }
+  return nearest_on_edge(edge, p, seed);
+}
+
+Vec3 CadModel::face_normal(int id, const Vec2& uv) const {
+  const FaceGeometry& face = shape_->face(id);
+  return face.sign * surface_normal(face, uv);
+}
+
+Vec3 CadModel::face_point(int id, const Vec2& uv) const { return to_vec(shape_->face(id).surface->Value(uv[0], uv[1])); }
+
+Vec3 CadModel::edge_point(int id, double t) const {
+  const EdgeGeometry& edge = shape_->edge(id);
+  return edge.curve.IsNull() ? vertex(this->edge(id).vertices[0]) : to_vec(edge.curve->Value(t));
+}
+
+Vec3 CadModel::edge_tangent(int id, double t) const {
+  const EdgeGeometry& edge = shape_->edge(id);
+  if (edge.curve.IsNull()) return Vec3::Zero();
+  gp_Pnt point;
+  gp_Vec d1, d2;
+  edge.curve->D2(t, point, d1, d2);
+  if (d1.Magnitude() > 1e-12 * (1 + d2.Magnitude())) return to_vec(d1).normalized();
+  // A cusp, or a spline with a double pole at its end: the chord into the edge shows the way.
+  const double step = 1e-4 * (edge.last - edge.first);
+  const double from = std::max(edge.first, t - step), to = std::min(edge.last, t + step);
+  return (to_vec(edge.curve->Value(to)) - to_vec(edge.curve->Value(from))).normalized();
+}
+
+std::array<double, 2> CadModel::edge_range(int id) const { return {shape_->edge(id).first, shape_->edge(id).last}; }
+
+std::vector<Vec3> CadModel::edge_samples(int id, int count) const {
+  const auto [first, last] = edge_range(id);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) points.push_back(edge_point(id, first + (last - first) * i / (count - 1)));
+  return points;
+}
+
+}  // namespace polycube

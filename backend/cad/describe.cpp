@@ -1,0 +1,309 @@
+// Tables of a valid solid: geometry for the projections, kinds, areas, borders and dihedral angles.
+#include <BRepBndLib.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools_WireExplorer.hxx>
+#include <BRep_Tool.hxx>
+#include <BndLib_Add3dCurve.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Line.hxx>
+#include <Geom2d_TrimmedCurve.hxx>
+#include <GeomAdaptor_Curve.hxx>
+#include <GeomAdaptor_Surface.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Wire.hxx>
+#include <algorithm>
+#include <numbers>
+
+#include "cad/shape.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+constexpr int kBorderPieces = 48;    // segments of a curved border in (u, v)
+constexpr int kEdgeSamples = 49;     // of an edge without closed form
+constexpr int kFaceSamples = 24;     // a side of the grid of a face without closed form
+constexpr int kAngleSamples = 9;     // inner points of an edge where the dihedral angle is taken
+
+Vec2 to_vec(const gp_Pnt2d& p) { return {p.X(), p.Y()}; }
+
+struct Maps {
+  TopTools_IndexedMapOfShape faces, edges, vertices;
+};
+
+Eigen::AlignedBox3d to_box(const Bnd_Box& box) {
+  Eigen::AlignedBox3d result;
+  if (!box.IsVoid()) result = {polycube::to_vec(box.CornerMin()), polycube::to_vec(box.CornerMax())};
+  return result;
+}
+
+EdgeGeometry edge_geometry(const TopoDS_Edge& edge) {
+  EdgeGeometry g;
+  g.edge = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+  if (BRep_Tool::Degenerated(edge)) {
+    BRep_Tool::Range(edge, g.first, g.last);
+    g.box.extend(polycube::to_vec(BRep_Tool::Pnt(TopExp::FirstVertex(g.edge))));
+    return g;
+  }
+  g.curve = BRep_Tool::Curve(g.edge, g.first, g.last);
+  while (const Handle(Geom_TrimmedCurve) trimmed = Handle(Geom_TrimmedCurve)::DownCast(g.curve)) g.curve = trimmed->BasisCurve();
+  const GeomAdaptor_Curve adaptor(g.curve, g.first, g.last);
+  if (adaptor.GetType() == GeomAbs_Line) g.closed_form = adaptor.Line();
+  if (adaptor.GetType() == GeomAbs_Circle) g.closed_form = adaptor.Circle();
+  if (g.curve->IsPeriodic()) g.period = g.curve->Period();
+  g.closed = TopExp::FirstVertex(g.edge).IsSame(TopExp::LastVertex(g.edge));
+  Bnd_Box box;
+  BndLib_Add3dCurve::Add(adaptor, 0, box);
+  g.box = to_box(box);
+  if (g.closed_form.index() == 0)
+    for (int i = 0; i < kEdgeSamples; ++i) g.samples.push_back(polycube::to_vec(g.curve->Value(g.first + (g.last - g.first) * i / (kEdgeSamples - 1))));
+  return g;
+}
+
+CadEdge edge_facts(const EdgeGeometry& g, const Maps& maps) {
+  CadEdge info;
+  info.vertices = {maps.vertices.FindIndex(TopExp::FirstVertex(g.edge)), maps.vertices.FindIndex(TopExp::LastVertex(g.edge))};
+  info.closed = info.vertices[0] == info.vertices[1];
+  info.degenerate = g.curve.IsNull();
+  info.tolerance = BRep_Tool::Tolerance(g.edge);
+  if (!info.degenerate) {
+    GProp_GProps properties;
+    BRepGProp::LinearProperties(g.edge, properties);
+    info.length = properties.Mass();
+  }
+  return info;
+}
+
+/// Appends the curve of one edge in one face to the polygon, drawn along the wire.
+void draw_border(const EdgeUse& use, double first, double last, bool wire_forward, int edge_id, std::vector<BorderSegment>& border) {
+  Handle(Geom2d_Curve) curve = use.curve;
+  while (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve)) curve = trimmed->BasisCurve();
+  const bool straight = !Handle(Geom2d_Line)::DownCast(curve).IsNull();
+  const int pieces = straight ? 1 : kBorderPieces;
+  for (int i = 0; i < pieces; ++i) {
+    const double from = static_cast<double>(i) / pieces, to = static_cast<double>(i + 1) / pieces;
+    const auto at = [&](double s) { return to_vec(use.curve->Value(first + (last - first) * (wire_forward ? s : 1 - s))); };
+    BorderSegment segment{at(from), at(to), 0, edge_id};
+    const Vec2 chord = segment.b - segment.a;
+    double sagitta = 0;
+    for (int k = 1; k < 4 && !straight; ++k) {
+      const Vec2 off = at(from + (to - from) * k / 4) - segment.a;
+      const double along = chord.squaredNorm() > 0 ? std::clamp(off.dot(chord) / chord.squaredNorm(), 0.0, 1.0) : 0;
+      sagitta = std::max(sagitta, (off - along * chord).norm());
+    }
+    // Twice the sagitta at the quarter points bounds the deviation of any curve that does not wiggle within a 48th of its length.
+    segment.margin = 2 * sagitta + 1e-9 * (1 + chord.norm());
+    border.push_back(segment);
+  }
+}
+
+/// Reads the wires of a face: its border in (u, v) and what each edge is to it.
+void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges, std::vector<CadEdge>& infos, const Maps& maps) {
+  const TopoDS_Face face = TopoDS::Face(g.face.Oriented(TopAbs_FORWARD));
+  for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
+    const TopoDS_Wire wire = TopoDS::Wire(wires.Current());
+    ++g.wires;
+    std::vector<TopoDS_Edge> chain, plain;
+    for (BRepTools_WireExplorer it(wire, face); it.More(); it.Next()) chain.push_back(it.Current());
+    for (TopExp_Explorer it(wire, TopAbs_EDGE); it.More(); it.Next()) plain.push_back(TopoDS::Edge(it.Current()));
+    const bool ordered = chain.size() == plain.size();
+    if (!ordered) chain = plain;
+    std::vector<BorderSegment> drawn;
+    std::vector<std::size_t> starts;
+    for (const TopoDS_Edge& edge : chain) {
+      if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) continue;
+      const int id = maps.edges.FindIndex(edge);
+      EdgeUse use;
+      use.face = face_id;
+      use.forward = edge.Orientation() == TopAbs_FORWARD;
+      double first = 0, last = 0;
+      use.curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+      if (use.curve.IsNull()) throw InvalidInput(name({1, id}) + " has no curve on " + name({2, face_id}));
+      const bool seam = BRep_Tool::IsClosed(edge, face), degenerate = BRep_Tool::Degenerated(edge);
+      starts.push_back(drawn.size());
+      draw_border(use, first, last, use.forward, seam || degenerate ? 0 : id, drawn);
+      if (degenerate) g.tips.push_back(to_vec(use.curve->Value((first + last) / 2)));
+      if (!seam && !degenerate) g.border_edges.push_back(id);
+      edges[static_cast<std::size_t>(id - 1)].uses.push_back(use);
+      if (degenerate) infos[static_cast<std::size_t>(id - 1)].faces = {face_id, face_id};
+    }
+    // Small gaps between consecutive curves would let the even-odd count leak.
+    const std::size_t count = drawn.size();
+    for (std::size_t k = 0; ordered && k < starts.size(); ++k) {
+      const std::size_t next = k + 1 < starts.size() ? starts[k + 1] : 0, last_piece = (k + 1 < starts.size() ? starts[k + 1] : count) - 1;
+      if (drawn[last_piece].b != drawn[next].a) drawn.push_back({drawn[last_piece].b, drawn[next].a, 0, 0});
+    }
+    g.border.insert(g.border.end(), drawn.begin(), drawn.end());
+  }
+  std::sort(g.border_edges.begin(), g.border_edges.end());
+  g.border_edges.erase(std::unique(g.border_edges.begin(), g.border_edges.end()), g.border_edges.end());
+  for (const BorderSegment& segment : g.border) {
+    g.domain.extend(segment.a);
+    g.domain.extend(segment.b);
+  }
+}
+
+FaceGeometry face_geometry(const TopoDS_Face& face) {
+  FaceGeometry g;
+  g.face = face;
+  g.sign = face.Orientation() == TopAbs_REVERSED ? -1 : 1;
+  g.surface = BRep_Tool::Surface(face);
+  while (const Handle(Geom_RectangularTrimmedSurface) trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(g.surface))
+    g.surface = trimmed->BasisSurface();
+  const GeomAdaptor_Surface adaptor(g.surface);
+  switch (adaptor.GetType()) {
+    case GeomAbs_Plane: g.closed_form = adaptor.Plane(); break;
+    case GeomAbs_Cylinder: g.closed_form = adaptor.Cylinder(); break;
+    case GeomAbs_Cone: g.closed_form = adaptor.Cone(); break;
+    case GeomAbs_Sphere: g.closed_form = adaptor.Sphere(); break;
+    case GeomAbs_Torus: g.closed_form = adaptor.Torus(); break;
+    default: break;
+  }
+  g.surface->Bounds(g.lower[0], g.upper[0], g.lower[1], g.upper[1]);
+  if (g.surface->IsUPeriodic()) g.period[0] = g.surface->UPeriod();
+  if (g.surface->IsVPeriodic()) g.period[1] = g.surface->VPeriod();
+  g.closed = {g.period[0] == 0 && g.surface->IsUClosed(), g.period[1] == 0 && g.surface->IsVClosed()};
+  return g;
+}
+
+void sample_face(const CadModel::Shape& shape, FaceGeometry& g) {
+  if (g.closed_form.index() != 0) return;
+  const auto add = [&](const Vec2& uv) {
+    g.sample_uv.push_back(uv);
+    g.samples.push_back(polycube::to_vec(g.surface->Value(uv[0], uv[1])));
+  };
+  const Vec2 size = g.domain.sizes();
+  for (int i = 0; i < kFaceSamples; ++i)
+    for (int j = 0; j < kFaceSamples; ++j) {
+      const Vec2 uv = g.domain.min() + Vec2((i + 0.5) / kFaceSamples * size[0], (j + 0.5) / kFaceSamples * size[1]);
+      if (inside(shape, g, uv)) add(uv);
+    }
+  for (const BorderSegment& segment : g.border) {
+    const int pieces = segment.margin > 1e-8 || segment.edge == 0 ? 1 : kFaceSamples;
+    for (int k = 0; k < pieces; ++k) add(segment.a + (segment.b - segment.a) * k / pieces);
+  }
+}
+
+CadFace face_facts(const FaceGeometry& g, int id, const std::vector<CadEdge>& edges) {
+  CadFace info;
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(g.face, properties);
+  info.area = std::abs(properties.Mass());
+  info.tolerance = BRep_Tool::Tolerance(g.face);
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (!edges[e].degenerate && (edges[e].faces[0] == id || edges[e].faces[1] == id)) info.edges.push_back(static_cast<int>(e) + 1);
+  const auto set_axis = [&](const gp_Ax1& axis) {
+    info.axis = polycube::to_vec(axis.Direction().XYZ());
+    info.centre = polycube::to_vec(axis.Location());
+  };
+  const GeomAdaptor_Surface adaptor(g.surface);
+  switch (adaptor.GetType()) {
+    case GeomAbs_Plane:
+      info.kind = SurfaceKind::kPlane;
+      info.axis = g.sign * surface_normal(g, g.domain.center());
+      info.centre = polycube::to_vec(properties.CentreOfMass());
+      break;
+    case GeomAbs_Cylinder:
+      info.kind = SurfaceKind::kCylinder;
+      set_axis(adaptor.Cylinder().Axis());
+      info.radius = adaptor.Cylinder().Radius();
+      break;
+    case GeomAbs_Cone:
+      info.kind = SurfaceKind::kCone;
+      set_axis(adaptor.Cone().Axis());
+      break;
+    case GeomAbs_Sphere:
+      info.kind = SurfaceKind::kSphere;
+      info.centre = polycube::to_vec(adaptor.Sphere().Location());
+      info.radius = adaptor.Sphere().Radius();
+      break;
+    case GeomAbs_Torus:
+      info.kind = SurfaceKind::kTorus;
+      set_axis(adaptor.Torus().Axis());
+      info.radius = adaptor.Torus().MinorRadius();
+      break;
+    case GeomAbs_SurfaceOfExtrusion:
+      info.kind = SurfaceKind::kExtrusion;
+      info.axis = polycube::to_vec(adaptor.Direction().XYZ());
+      info.centre = polycube::to_vec(properties.CentreOfMass());
+      break;
+    case GeomAbs_SurfaceOfRevolution:
+      info.kind = SurfaceKind::kRevolution;
+      set_axis(adaptor.AxeOfRevolution());
+      break;
+    default: info.centre = polycube::to_vec(properties.CentreOfMass()); break;
+  }
+  return info;
+}
+
+/// Interior dihedral angle at parameter t, from the two inner directions: pi where the faces continue each other.
+double dihedral_angle(const CadModel::Shape& shape, const EdgeGeometry& edge, double t) {
+  gp_Pnt point;
+  gp_Vec tangent;
+  edge.curve->D1(t, point, tangent);
+  std::array<Vec3, 2> inward, outer;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const EdgeUse& use = edge.uses[k];
+    const FaceGeometry& face = shape.face(use.face);
+    const Vec3 normal = surface_normal(face, to_vec(use.curve->Value(t)));
+    inward[k] = normal.cross(polycube::to_vec(tangent)).normalized() * (use.forward ? 1 : -1);
+    outer[k] = face.sign * normal;
+  }
+  const double angle = std::atan2(-inward[1].dot(outer[0]), inward[1].dot(inward[0]));
+  return angle < 0 ? angle + 2 * std::numbers::pi : angle;
+}
+
+void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id, CadEdge& info) {
+  if (info.degenerate) return;
+  if (edge.uses.size() != 2) throw InvalidInput(name({1, id}) + " bounds " + std::to_string(edge.uses.size()) + " faces; two are needed");
+  info.faces = {edge.uses[0].face, edge.uses[1].face};
+  info.seam = info.faces[0] == info.faces[1];
+  info.min_angle = 2 * std::numbers::pi;
+  info.max_angle = 0;
+  for (int i = 1; i <= kAngleSamples; ++i) {
+    const double angle = dihedral_angle(shape, edge, edge.first + (edge.last - edge.first) * i / (kAngleSamples + 1));
+    info.min_angle = std::min(info.min_angle, angle);
+    info.max_angle = std::max(info.max_angle, angle);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape) {
+  auto result = std::make_shared<CadModel::Shape>();
+  result->shape = shape;
+  BRepLib::BuildCurves3d(shape);
+  Maps maps;
+  TopExp::MapShapes(shape, TopAbs_FACE, maps.faces);
+  TopExp::MapShapes(shape, TopAbs_EDGE, maps.edges);
+  TopExp::MapShapes(shape, TopAbs_VERTEX, maps.vertices);
+  for (int i = 1; i <= maps.vertices.Extent(); ++i) result->vertices.push_back(polycube::to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
+  for (int i = 1; i <= maps.edges.Extent(); ++i) {
+    result->edge_geometry.push_back(edge_geometry(TopoDS::Edge(maps.edges(i))));
+    result->edges.push_back(edge_facts(result->edge_geometry.back(), maps));
+  }
+  for (int i = 1; i <= maps.faces.Extent(); ++i) {
+    result->face_geometry.push_back(face_geometry(TopoDS::Face(maps.faces(i))));
+    read_borders(i, result->face_geometry.back(), result->edge_geometry, result->edges, maps);
+  }
+  for (std::size_t e = 0; e < result->edges.size(); ++e) finish_edge(*result, result->edge_geometry[e], static_cast<int>(e) + 1, result->edges[e]);
+  for (std::size_t f = 0; f < result->face_geometry.size(); ++f) {
+    sample_face(*result, result->face_geometry[f]);
+    result->faces.push_back(face_facts(result->face_geometry[f], static_cast<int>(f) + 1, result->edges));
+  }
+  Bnd_Box box;
+  BRepBndLib::AddOptimal(shape, box, false, false);
+  result->box = to_box(box);
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  result->volume = properties.Mass();
+  return result;
+}
+
+}  // namespace polycube

@@ -1,0 +1,174 @@
+// Reading STEP and BREP, and refusing what is not one valid solid.
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <BRepBndLib.hxx>
+#include <GProp_GProps.hxx>
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <STEPControl_Reader.hxx>
+#include <Standard_Failure.hxx>
+#include <TopAbs_ShapeEnum.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+
+#include "cad/shape.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+// Largest and smallest size of a part that double precision and OCCT's absolute confusion of 1e-7 mm leave room for.
+constexpr double kLargest = 1e8, kSmallest = 1e-4;
+
+void silence_occt() {
+  static std::once_flag once;
+  std::call_once(once, [] { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); });
+}
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum avoid = TopAbs_SHAPE) {
+  TopTools_IndexedMapOfShape map;
+  for (TopExp_Explorer it(shape, kind, avoid); it.More(); it.Next()) map.Add(it.Current());
+  return map.Extent();
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+TopoDS_Shape read_step(const std::string& path) {
+  // The STEP translator keeps its settings and tables in globals.
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  STEPControl_Reader reader;
+  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
+  reader.TransferRoots();
+  if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
+  return reader.OneShape();
+}
+
+TopoDS_Shape read_brep(std::istream& stream) {
+  TopoDS_Shape shape;
+  BRepTools::Read(shape, stream, BRep_Builder());
+  return shape;
+}
+
+void check_coordinates(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(vertices(i)));
+    for (int k = 1; k <= 3; ++k)
+      if (!std::isfinite(p.Coord(k)) || std::abs(p.Coord(k)) > kLargest)
+        throw InvalidInput(name({0, i}) + " has no usable coordinates");
+  }
+}
+
+/// Every edge bounds exactly two faces, or the same face twice, or is a mere point.
+void check_closed(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const int uses = faces_of.Contains(edge) ? faces_of.FindFromKey(edge).Extent() : 0;
+    if (uses < 2) throw InvalidInput("the shape is open at " + name({1, i}));
+    if (uses > 2) throw InvalidInput("more than two faces meet at " + name({1, i}));
+  }
+}
+
+void validate_unguarded(const TopoDS_Shape& shape) {
+  if (shape.IsNull()) throw InvalidInput("the shape is empty");
+  const int solids = count(shape, TopAbs_SOLID);
+  if (solids == 0) {
+    if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the shape is empty: it has no face");
+    throw InvalidInput("the shape is a shell or loose faces, not a solid");
+  }
+  if (solids > 1) throw InvalidInput("the shape holds " + std::to_string(solids) + " solids; one is needed");
+  if (count(shape, TopAbs_FACE, TopAbs_SOLID) + count(shape, TopAbs_EDGE, TopAbs_FACE) > 0)
+    throw InvalidInput("the shape holds loose faces or edges beside its solid");
+  if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the solid has no face");
+  check_coordinates(shape);
+  check_closed(shape);
+  const BRepCheck_Analyzer analyzer(shape);
+  if (!analyzer.IsValid()) {
+    static constexpr std::array<std::pair<TopAbs_ShapeEnum, int>, 3> kKinds{{{TopAbs_FACE, 2}, {TopAbs_EDGE, 1}, {TopAbs_VERTEX, 0}}};
+    for (const auto& [kind, dim] : kKinds) {
+      TopTools_IndexedMapOfShape map;
+      TopExp::MapShapes(shape, kind, map);
+      for (int i = 1; i <= map.Extent(); ++i)
+        if (!analyzer.IsValid(map(i))) throw InvalidInput("the shape is not valid at " + name({dim, i}) + " (OpenCASCADE's check)");
+    }
+    throw InvalidInput("the solid is not valid (OpenCASCADE's check)");
+  }
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  const double diagonal = box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+  if (!(diagonal > kSmallest && diagonal < kLargest)) throw InvalidInput("the solid's size is not usable: " + std::to_string(diagonal) + " mm across");
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  const double volume = properties.Mass();
+  if (!std::isfinite(volume) || std::abs(volume) < 1e-12 * std::pow(diagonal, 3)) throw InvalidInput("the solid has no volume");
+  if (volume < 0) throw InvalidInput("the solid is inside out: its volume is negative");
+  // The box has OCCT's safety margins, so this can only fail on faces that cross each other.
+  if (volume > 1.01 * std::pow(diagonal, 3)) throw InvalidInput("the solid intersects itself");
+}
+
+}  // namespace
+
+TopoDS_Shape read_shape(const std::string& path) {
+  silence_occt();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw InvalidInput(path + ": no such file");
+  if (std::filesystem::file_size(path, error) == 0) throw InvalidInput(path + ": the file is empty");
+  const std::string extension = lower_extension(path);
+  const bool step = extension == ".step" || extension == ".stp";
+  if (!step && extension != ".brep" && extension != ".brp") throw InvalidInput(path + ": not a .step, .stp, .brep or .brp file");
+  try {
+    if (step) return read_step(path);
+    std::ifstream stream(path);
+    const TopoDS_Shape shape = read_brep(stream);
+    if (shape.IsNull()) throw InvalidInput(path + ": not a BREP file");
+    return shape;
+  } catch (const Standard_Failure&) {
+    throw InvalidInput(path + ": OpenCASCADE cannot read the file");
+  }
+}
+
+TopoDS_Shape parse_brep(const std::string& text) {
+  silence_occt();
+  try {
+    std::istringstream stream(text);
+    const TopoDS_Shape shape = read_brep(stream);
+    if (shape.IsNull()) throw InvalidInput("not a BREP shape");
+    return shape;
+  } catch (const Standard_Failure&) {
+    throw InvalidInput("OpenCASCADE cannot read the BREP shape");
+  }
+}
+
+void validate(const TopoDS_Shape& shape) {
+  try {
+    validate_unguarded(shape);
+  } catch (const Standard_Failure& failure) {
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+  }
+}
+
+}  // namespace polycube

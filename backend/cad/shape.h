@@ -1,0 +1,107 @@
+// The OCCT side of CadModel. Only backend/cad/*.cpp and the tet worker include this.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_Surface.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
+#include <gp_Circ.hxx>
+#include <gp_Cone.hxx>
+#include <gp_Cylinder.hxx>
+#include <gp_Lin.hxx>
+#include <gp_Pln.hxx>
+#include <gp_Sphere.hxx>
+#include <gp_Torus.hxx>
+#include <variant>
+
+#include "cad/cad.h"
+
+namespace polycube {
+
+inline Vec3 to_vec(const gp_XYZ& p) { return {p.X(), p.Y(), p.Z()}; }
+inline Vec3 to_vec(const gp_Pnt& p) { return to_vec(p.XYZ()); }
+inline Vec3 to_vec(const gp_Vec& v) { return to_vec(v.XYZ()); }
+inline gp_Pnt to_pnt(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+/// A straight piece of a face's border in (u, v). The true border is within `margin` of it.
+struct BorderSegment {
+  Vec2 a, b;
+  double margin = 0;
+  int edge = 0;  ///< CAD edge, 0 where the segment is no border in space (seam, pole, gap)
+};
+
+/// One edge in one face, with the curve in (u, v) and the direction along which the face lies to the left of it.
+struct EdgeUse {
+  int face = 0;
+  Handle(Geom2d_Curve) curve;
+  bool forward = true;  ///< the face, seen against its surface's own normal du x dv, is to the left of the 3D curve's direction
+};
+
+struct FaceGeometry {
+  TopoDS_Face face;
+  Handle(Geom_Surface) surface;  ///< placed, without rectangular trimming
+  std::variant<std::monostate, gp_Pln, gp_Cylinder, gp_Cone, gp_Sphere, gp_Torus> closed_form;
+  double sign = 1;               ///< outward normal = sign * du x dv
+  Vec2 period = Vec2::Zero();    ///< 0: not periodic
+  Vec2 lower, upper;             ///< natural bounds of the parameters
+  std::array<bool, 2> closed{false, false};  ///< both bounds are the same curve in space although the surface is not periodic
+  Eigen::AlignedBox2d domain;    ///< box of the trimmed domain
+  int wires = 0;
+  std::vector<BorderSegment> border;
+  std::vector<int> border_edges;  ///< edges that bound the face in space: no seams, no degenerate ones
+  std::vector<Vec2> tips;         ///< (u, v) at degenerate edges: cone tips, poles
+  std::vector<Vec3> samples;      ///< points of the trimmed face where there is no closed form
+  std::vector<Vec2> sample_uv;
+};
+
+struct EdgeGeometry {
+  TopoDS_Edge edge;
+  Handle(Geom_Curve) curve;  ///< placed; null for a degenerate edge
+  std::variant<std::monostate, gp_Lin, gp_Circ> closed_form;
+  double first = 0, last = 0;
+  double period = 0;  ///< of the curve's parameter, 0: not periodic
+  bool closed = false;
+  Eigen::AlignedBox3d box;
+  std::vector<Vec3> samples;  ///< evenly by parameter, where there is no closed form
+  std::vector<EdgeUse> uses;
+};
+
+struct CadModel::Shape {
+  TopoDS_Shape shape;
+  std::vector<CadFace> faces;
+  std::vector<CadEdge> edges;
+  std::vector<Vec3> vertices;
+  std::vector<FaceGeometry> face_geometry;
+  std::vector<EdgeGeometry> edge_geometry;
+  Eigen::AlignedBox3d box;
+  double volume = 0;
+
+  const FaceGeometry& face(int id) const { return face_geometry[static_cast<std::size_t>(id - 1)]; }
+  const EdgeGeometry& edge(int id) const { return edge_geometry[static_cast<std::size_t>(id - 1)]; }
+};
+
+/// Reads a file; throws InvalidInput. The shape is not checked.
+TopoDS_Shape read_shape(const std::string& path);
+/// From BREP text; throws InvalidInput. The shape is not checked.
+TopoDS_Shape parse_brep(const std::string& text);
+/// Throws InvalidInput unless the shape is exactly one closed valid solid of positive volume.
+void validate(const TopoDS_Shape& shape);
+/// Tables of a valid shape. Throws InvalidInput for what the tables cannot express (an edge of three faces).
+std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape);
+
+/// Parameters of the nearest point of the untrimmed surface, moved by periods into the face's domain where that is possible.
+/// `converged` is false where Newton's method ended elsewhere than in a foot point.
+Vec2 foot_on_surface(const FaceGeometry& face, const Vec3& p, const Vec2& seed, bool* converged);
+/// (u, v) moved by whole periods into the box of the face's domain, as far as possible.
+Vec2 wrap(const FaceGeometry& face, const Vec2& uv);
+/// Whether the surface's point at wrapped `uv` belongs to the trimmed face.
+bool inside(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv);
+/// Unit du x dv, also at poles.
+Vec3 surface_normal(const FaceGeometry& face, const Vec2& uv);
+EdgePoint nearest_on_edge(const EdgeGeometry& edge, const Vec3& p, const double* seed);
+
+}  // namespace polycube

@@ -2,6 +2,10 @@
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(OpenCASCADE REQUIRED)
 find_package(Threads REQUIRED)
+find_package(MPI REQUIRED COMPONENTS C)  # the headers of Debian's libmed include those of its HDF5, and these MPI's
+find_path(HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/openmpi REQUIRED)
+find_path(MED_INCLUDE_DIR med.h REQUIRED)
+find_library(MED_LIBRARY medC REQUIRED)
 
 set(POLYCUBE_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual -Werror)
 
@@ -33,7 +37,8 @@ polycube_stage(quantize USES core blocks)
 polycube_stage(hex USES core blocks quantize)
 polycube_stage(pad USES core cad)
 polycube_stage(fit USES core cad)
-polycube_stage(fem USES core cad)
+polycube_stage(fem USES core cad LINKS ${MED_LIBRARY} SYSTEM ${MED_INCLUDE_DIR} ${HDF5_INCLUDE_DIR} ${MPI_C_INCLUDE_DIRS})
 polycube_stage(pipeline USES core cad tet label deform blocks quantize hex pad fit fem)
 # Boost's max flow copies descriptors that it has not set yet; GCC 12 takes that for a use.
 set_source_files_properties(backend/label/graph_cut.cpp PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
+target_compile_definitions(polycube_core PUBLIC POLYCUBE_VERSION="${PROJECT_VERSION}")

@@ -184,7 +184,7 @@ std::vector<int> split_regions(const Setup& s, std::vector<int> labels) {
 
 }  // namespace
 
-Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor) {
+Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
   const Setup s = prepare(model, mesh, options);
   monitor.progress("label", 0);
   const std::vector<int> first = cut_triangles(s, monitor);
@@ -221,6 +221,10 @@ Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& 
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
+  if (report) {
+    *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs,
+               left.poor_loops, left.bad_corners, left.turning_points, left.bad_turns};
+  }
   monitor.progress("label", 1);
   return result;
 }

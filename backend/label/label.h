@@ -22,7 +22,19 @@ struct Labelling {
   std::vector<int> label;         ///< per boundary triangle: 0..5 = +X -X +Y -Y +Z -Z of the frame
 };
 
-/// Throws StageFailed("label", ...) where no labelling passes `check`.
-Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor);
+/// What the search left, by the published rules (validity.h); all zero but `regions` and `charts` for a valid, monotone labelling.
+struct LabelReport {
+  int regions = 0;
+  int charts = 0;
+  int opposite_arcs = 0;
+  int poor_loops = 0;
+  int bad_corners = 0;
+  int turning_points = 0;
+  int bad_turns = 0;
+  bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
+};
+
+/// The best labelling that the search finds, valid or not: whether it can be realised, the map decides.
+Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report = nullptr);
 
 }  // namespace polycube

@@ -1,0 +1,31 @@
+// Feature charts: CAD edges that lie inside charts get an axis of their own, so that the grid follows them.
+#pragma once
+
+#include "label/label.h"
+
+namespace polycube {
+
+enum class EdgeCapture {
+  kBoundary,  ///< runs along chart boundaries
+  kFeature,   ///< runs along chart boundaries and feature charts
+  kLost       ///< cannot, see reason
+};
+
+struct FeatureEdge {
+  int edge = 0;  ///< CAD edge
+  EdgeCapture capture = EdgeCapture::kBoundary;
+  std::string reason;  ///< of kLost
+};
+
+struct Features {
+  std::vector<Chart> charts;        ///< sign 0; axis and nodes filled
+  std::vector<FeatureEdge> edges;   ///< one per CAD edge that is neither seam nor degenerate
+};
+
+/// The mesh points along a CAD edge from its start to its end vertex, ordered; empty where the mesh has no segments there.
+std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& mesh);
+
+/// `min_bend`: edges whose faces meet within this angle of smooth everywhere (radians) are left out; 0 keeps all.
+Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, double min_bend, const Monitor& monitor);
+
+}  // namespace polycube

@@ -1,0 +1,492 @@
+#include "pad/associate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <queue>
+#include <set>
+#include <unordered_map>
+
+#include "core/charts.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// Paths further from their CAD edge than this many cell sizes are no capture of it.
+constexpr double kReach = 3;
+
+std::uint64_t key(int a, int b) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b); }
+
+double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 d = b - a;
+  const double t = d.squaredNorm() > 0 ? std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (p - a - t * d).norm();
+}
+
+// Half edges of the boundary quads.
+struct Surface {
+  explicit Surface(const std::vector<Quad>& quads, std::size_t n_points) : out(n_points) {
+    left.reserve(quads.size() * 4);
+    for (int q = 0; q < static_cast<int>(quads.size()); ++q) {
+      for (int k = 0; k < 4; ++k) {
+        left[key(quads[q][k], quads[q][(k + 1) % 4])] = q;
+        out[quads[q][k]].push_back(quads[q][(k + 1) % 4]);
+      }
+    }
+    for (auto& o : out) std::sort(o.begin(), o.end());
+  }
+  int left_of(int a, int b) const { return left.at(key(a, b)); }
+
+  std::unordered_map<std::uint64_t, int> left;  // directed edge -> quad on its left
+  std::vector<std::vector<int>> out;            // per node: neighbours, ascending
+};
+
+struct Path {
+  std::vector<int> nodes;
+  double deviation = 0;  // mm, mean distance from the CAD edge
+};
+
+class Associator {
+ public:
+  Associator(const CadModel& model, const TetMesh& tets, const std::vector<Chart>& charts, const HexBoundary& b, const AssociateOptions& options,
+             const Monitor& monitor)
+      : model_(model), tets_(tets), b_(b), options_(options), monitor_(monitor), surface_(b.quads, b.points.size()) {
+    node_charts_.resize(b.points.size());
+    for (std::size_t q = 0; q < b.quads.size(); ++q) {
+      for (int n : b.quads[q]) node_charts_[n].insert(b.quad_chart[q]);
+    }
+    for (int n = 0; n < static_cast<int>(b.points.size()); ++n) {
+      if (!node_charts_[n].empty()) nodes_.push_back(n);
+    }
+    tet_charts_.resize(tets.points.size());
+    chart_of_triangle_.assign(tets.triangles.size(), -1);
+    for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
+      for (int t : charts[c].triangles) {
+        chart_of_triangle_[t] = c;
+        for (int n : tets.triangles[t]) tet_charts_[n].insert(c);
+      }
+    }
+    for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) {
+      for (int k = 0; k < 3; ++k) triangle_left_[key(tets.triangles[t][k], tets.triangles[t][(k + 1) % 3])] = t;
+    }
+  }
+
+  Association run() {
+    lost_.assign(model_.edge_count() + 1, 1);
+    for (int e = 1; e <= model_.edge_count(); ++e) {
+      const CadEdge& edge = model_.edge(e);
+      if (edge.seam || edge.degenerate) continue;
+      real_.push_back(e);
+      if (options_.edge_chains[e].size() > 1) lost_[e] = 0;
+    }
+    place_vertices();
+    route_all();
+    // Give up one edge at a time until the regions are the patches.
+    for (;;) {
+      monitor_.check();
+      Association result;
+      const int culprit = regions(result);
+      if (culprit == 0) return result;
+      if (culprit < 0) throw StageFailed("pad", "the surface of the hexahedral mesh is not the surface of the part");
+      lost_[culprit] = 1;
+      path_[culprit] = {};
+    }
+  }
+
+ private:
+  void place_vertices() {
+    std::vector<char> wanted(model_.vertex_count() + 1, 0);
+    for (int e : real_) {
+      for (int v : model_.edge(e).vertices) wanted[v] = 1;
+    }
+    std::vector<int> tet_node(model_.vertex_count() + 1, -1);
+    for (int n = 0; n < static_cast<int>(tets_.points.size()); ++n) {
+      if (tets_.point_cad[n].dim == 0) tet_node[tets_.point_cad[n].id] = n;
+    }
+    struct Candidate {
+      double cost;
+      int vertex, node;
+    };
+    std::vector<Candidate> candidates;
+    for (int v = 1; v <= model_.vertex_count(); ++v) {
+      if (!wanted[v] || tet_node[v] < 0) continue;
+      const std::set<int>& charts = tet_charts_[tet_node[v]];
+      for (int n : nodes_) {
+        const double d = (b_.points[n] - model_.vertex(v)).norm() / options_.size;
+        if (d > kReach) continue;
+        // A vertex on a chart boundary or corner belongs on one of the mesh.
+        const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
+        candidates.push_back({d + 2.0 * static_cast<double>(missing) - 0.01 * static_cast<double>(charts.size()), v, n});
+      }
+    }
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return std::tie(a.cost, a.vertex, a.node) < std::tie(b.cost, b.vertex, b.node); });
+    vertex_node_.assign(model_.vertex_count() + 1, -1);
+    owner_.assign(b_.points.size(), 0);
+    for (const Candidate& c : candidates) {
+      if (vertex_node_[c.vertex] >= 0 || owner_[c.node] != 0) continue;
+      vertex_node_[c.vertex] = c.node;
+      owner_[c.node] = -c.vertex;
+    }
+  }
+
+  // Pairs of charts that the CAD edge runs between, and charts that it runs inside of.
+  std::set<std::pair<int, int>> chart_pairs(const std::vector<int>& chain) const {
+    std::set<std::pair<int, int>> pairs;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) pairs.insert(pair_of(chain[i], chain[i + 1]));
+    return pairs;
+  }
+  std::pair<int, int> pair_of(int a, int b) const {
+    const int p = triangle_chart(triangle_left_.at(key(a, b))), q = triangle_chart(triangle_left_.at(key(b, a)));
+    return std::minmax(p, q);
+  }
+  int triangle_chart(int t) const { return chart_of_triangle_[t]; }
+
+  void route_all() {
+    path_.assign(model_.edge_count() + 1, {});
+    std::vector<int> order;
+    std::map<int, double> inside;  // share of the edge that runs inside charts: those with none first, they have no choice
+    for (int e : real_) {
+      if (lost_[e]) continue;
+      const auto& chain = options_.edge_chains[e];
+      int n = 0;
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        const auto p = pair_of(chain[i], chain[i + 1]);
+        n += p.first == p.second;
+      }
+      inside[e] = static_cast<double>(n) / static_cast<double>(chain.size() - 1);
+      order.push_back(e);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      if (inside[a] != inside[b]) return inside[a] < inside[b];
+      return model_.edge(a).length > model_.edge(b).length * (1 + 1e-9);
+    });
+    for (int e : order) {
+      monitor_.check();
+      if (!route(e)) lost_[e] = 1;
+    }
+  }
+
+  bool route(int e) {
+    const auto& chain = options_.edge_chains[e];
+    const int from = vertex_node_[model_.edge(e).vertices[0]], to = vertex_node_[model_.edge(e).vertices[1]];
+    if (from < 0 || to < 0) return false;
+    std::vector<int> stops{from, to};
+    std::vector<std::pair<std::size_t, std::size_t>> pieces{{0, chain.size() - 1}};
+    if (from == to) {
+      if (chain.front() != chain.back()) return false;
+      // A closed edge goes through two more nodes, a third of its length apart.
+      const std::size_t n = chain.size() - 1;
+      const int p = near_node(chain[n / 3], {from}), q = p < 0 ? -1 : near_node(chain[2 * n / 3], {from, p});
+      if (p < 0 || q < 0) return false;
+      stops = {from, p, q, from};
+      pieces = {{0, n / 3}, {n / 3, 2 * n / 3}, {2 * n / 3, n}};
+    }
+    Path path;
+    path.nodes = {from};
+    double sum = 0;
+    std::vector<int> taken;
+    bool ok = true;
+    for (std::size_t i = 0; i + 1 < stops.size() && ok; ++i) {
+      std::vector<int> piece(chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].first), chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].second) + 1);
+      const std::vector<int> nodes = shortest(piece, stops[i], stops[i + 1], sum);
+      ok = nodes.size() > 1;
+      if (!ok) break;
+      path.nodes.insert(path.nodes.end(), nodes.begin() + 1, nodes.end());
+      for (int n : nodes) {
+        if (owner_[n] == 0) {
+          owner_[n] = e;
+          taken.push_back(n);
+        }
+      }
+    }
+    std::set<int> unique(path.nodes.begin(), path.nodes.end());
+    ok = ok && unique.size() + (from == to ? 1 : 0) == path.nodes.size();
+    if (!ok) {
+      for (int n : taken) owner_[n] = 0;
+      return false;
+    }
+    path.deviation = sum / static_cast<double>(path.nodes.size());
+    path_[e] = std::move(path);
+    return true;
+  }
+
+  int near_node(int tet_node, const std::vector<int>& not_these) const {
+    int best = -1;
+    double best_cost = kNever;
+    for (int n : nodes_) {
+      if (owner_[n] != 0 || std::find(not_these.begin(), not_these.end(), n) != not_these.end()) continue;
+      const double d = (b_.points[n] - tets_.points[tet_node]).norm() / options_.size;
+      const auto& charts = tet_charts_[tet_node];
+      const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
+      const double cost = d + 2.0 * static_cast<double>(missing);
+      if (cost < best_cost) {
+        best_cost = cost;
+        best = n;
+      }
+    }
+    return best_cost < kReach ? best : -1;
+  }
+
+  // Price of the angle between two path edges at a node inside the grid: one quad on a side would become a flat corner.
+  double turn_price(int a, int b, int c) const {
+    if (surface_.out[b].size() != 4 || node_charts_[b].size() != 1) return 0;
+    const int q1 = surface_.left_of(b, c), q2 = surface_.left_of(c, b);
+    const auto has = [&](int q) { return std::find(b_.quads[q].begin(), b_.quads[q].end(), a) != b_.quads[q].end(); };
+    return has(q1) || has(q2) ? 0.5 * options_.size : 0;
+  }
+
+  // Dijkstra over directed boundary edges, cheap near the chain.
+  std::vector<int> shortest(const std::vector<int>& chain, int from, int to, double& deviation) {
+    const auto pairs = chart_pairs(chain);
+    std::unordered_map<int, double> off;
+    const auto away = [&](int n) {
+      if (auto it = off.find(n); it != off.end()) return it->second;
+      double d = kNever;
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) d = std::min(d, distance_to_segment(b_.points[n], tets_.points[chain[i]], tets_.points[chain[i + 1]]));
+      off[n] = d;
+      return d;
+    };
+    struct Item {
+      double cost;
+      int a, b;
+      bool operator>(const Item& o) const { return std::tie(cost, a, b) > std::tie(o.cost, o.a, o.b); }
+    };
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    std::unordered_map<std::uint64_t, double> best;
+    std::unordered_map<std::uint64_t, int> before;  // directed edge -> the node before it
+    const auto push = [&](double base, int previous, int a, int b) {
+      if (b != to && owner_[b] != 0) return;
+      const double da = away(a), db = away(b), size = options_.size;
+      if (db > kReach * size && b != to) return;
+      const int p = b_.quad_chart[surface_.left_of(a, b)], q = b_.quad_chart[surface_.left_of(b, a)];
+      double cost = (b_.points[a] - b_.points[b]).norm() + 1e-3 * size;
+      const double mean = (da + db) / (2 * size);
+      cost *= 1 + 8 * mean + 16 * mean * mean;
+      if (pairs.count(std::minmax(p, q)) == 0) cost = 6 * cost + size;
+      if (previous >= 0) cost += turn_price(previous, a, b);
+      const std::uint64_t k = key(a, b);
+      if (auto it = best.find(k); it != best.end() && it->second <= base + cost) return;
+      best[k] = base + cost;
+      before[k] = previous;
+      queue.push({base + cost, a, b});
+    };
+    for (int n : surface_.out[from]) push(0, -1, from, n);
+    while (!queue.empty()) {
+      const Item item = queue.top();
+      queue.pop();
+      if (item.cost > best[key(item.a, item.b)]) continue;
+      if (item.b == to) {
+        std::vector<int> nodes{item.b};
+        int a = item.a, b = item.b;
+        while (a >= 0) {
+          nodes.push_back(a);
+          const int p = before[key(a, b)];
+          b = a;
+          a = p;
+        }
+        std::reverse(nodes.begin(), nodes.end());
+        for (int n : nodes) deviation += away(n);
+        return nodes;
+      }
+      for (int n : surface_.out[item.b]) {
+        if (n != item.a) push(item.cost, item.a, item.b, n);
+      }
+    }
+    return {};
+  }
+
+  // Cuts the quads along the paths and compares the regions with the patches. 0: they agree and `result` is filled; > 0: an edge to give up;
+  // -1: disagreement without any edge left.
+  int regions(Association& result) {
+    std::vector<int> group(model_.face_count() + 1);
+    std::iota(group.begin(), group.end(), 0);
+    const auto find = [&](int f) {
+      while (group[f] != f) f = group[f];
+      return f;
+    };
+    for (int e : real_) {
+      if (!lost_[e]) continue;
+      const int a = find(model_.edge(e).faces[0]), b = find(model_.edge(e).faces[1]);
+      group[std::max(a, b)] = std::min(a, b);
+    }
+    std::unordered_map<std::uint64_t, int> cut;  // directed mesh edge on a path -> CAD face that belongs on its left
+    std::unordered_map<std::uint64_t, int> cut_edge;
+    for (int e : real_) {
+      if (lost_[e]) continue;
+      const auto& chain = options_.edge_chains[e];
+      const int left = tets_.triangle_face[triangle_left_.at(key(chain[0], chain[1]))], right = tets_.triangle_face[triangle_left_.at(key(chain[1], chain[0]))];
+      for (std::size_t i = 0; i + 1 < path_[e].nodes.size(); ++i) {
+        const int a = path_[e].nodes[i], b = path_[e].nodes[i + 1];
+        cut[key(a, b)] = left;
+        cut[key(b, a)] = right;
+        cut_edge[key(a, b)] = cut_edge[key(b, a)] = e;
+      }
+    }
+    const int n = static_cast<int>(b_.quads.size());
+    std::vector<int> region(n, -1);
+    std::map<int, int> patch_region;  // representative face -> region
+    std::vector<std::vector<int>> members;
+    std::vector<int> region_patch;
+    int culprit = 0;
+    double culprit_cost = -1;
+    const auto blame = [&](int e) {
+      const double cost = path_[e].deviation / options_.size + 1e-6 * e;
+      if (cost > culprit_cost) {
+        culprit_cost = cost;
+        culprit = e;
+      }
+    };
+    for (int seed = 0; seed < n; ++seed) {
+      if (region[seed] >= 0) continue;
+      const int id = static_cast<int>(members.size());
+      members.push_back({seed});
+      region[seed] = id;
+      std::map<int, std::set<int>> faces;  // patch -> edges that say so
+      std::map<int, int> votes;
+      for (std::size_t i = 0; i < members[id].size(); ++i) {
+        const int q = members[id][i];
+        ++votes[find(tets_.triangle_face[b_.quad_triangle[q]])];
+        for (int k = 0; k < 4; ++k) {
+          const int a = b_.quads[q][k], b = b_.quads[q][(k + 1) % 4];
+          if (auto it = cut.find(key(a, b)); it != cut.end()) {
+            faces[find(it->second)].insert(cut_edge[key(a, b)]);
+            continue;
+          }
+          const int m = surface_.left_of(b, a);
+          if (region[m] >= 0) continue;
+          region[m] = id;
+          members[id].push_back(m);
+        }
+      }
+      int patch = -1;
+      if (faces.empty()) {
+        patch = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      } else if (faces.size() == 1) {
+        patch = faces.begin()->first;
+      } else {
+        for (const auto& [f, edges] : faces) {
+          for (int e : edges) blame(e);
+        }
+      }
+      region_patch.push_back(patch);
+      if (patch >= 0 && !patch_region.try_emplace(patch, id).second) {
+        for (const auto& [f, edges] : faces) {
+          for (int e : edges) blame(e);
+        }
+      }
+    }
+    if (culprit == 0) {
+      // Every patch must have its region, with the Euler characteristic of its triangles.
+      std::map<int, int> expected = tet_euler(find);
+      for (const auto& [patch, chi] : expected) {
+        const auto it = patch_region.find(patch);
+        const bool same = it != patch_region.end() && quad_euler(members[it->second]) == chi;
+        if (same) continue;
+        for (int e : real_) {
+          if (!lost_[e] && (find(model_.edge(e).faces[0]) == patch || find(model_.edge(e).faces[1]) == patch)) blame(e);
+        }
+        if (culprit == 0) return -1;
+      }
+    }
+    if (culprit != 0) return culprit;
+    fill(result, region, region_patch, find);
+    return 0;
+  }
+
+  template <class Cells>
+  static int euler(const Cells& cells) {
+    std::set<int> nodes;
+    std::set<std::pair<int, int>> edges;
+    for (const auto& c : cells) {
+      for (std::size_t k = 0; k < c.size(); ++k) {
+        nodes.insert(c[k]);
+        edges.insert(std::minmax(c[k], c[(k + 1) % c.size()]));
+      }
+    }
+    return static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(cells.size());
+  }
+  int quad_euler(const std::vector<int>& quads) const {
+    std::vector<Quad> cells;
+    for (int q : quads) cells.push_back(b_.quads[q]);
+    return euler(cells);
+  }
+  std::map<int, int> tet_euler(const std::function<int(int)>& find) const {
+    std::map<int, std::vector<Triangle>> cells;
+    for (std::size_t t = 0; t < tets_.triangles.size(); ++t) cells[find(tets_.triangle_face[t])].push_back(tets_.triangles[t]);
+    std::map<int, int> result;
+    for (const auto& [patch, triangles] : cells) result[patch] = euler(triangles);
+    return result;
+  }
+
+  void fill(Association& result, const std::vector<int>& region, const std::vector<int>& region_patch, const std::function<int(int)>& find) const {
+    std::map<int, int> index;
+    for (int f = 1; f <= model_.face_count(); ++f) {
+      const auto [it, fresh] = index.try_emplace(find(f), static_cast<int>(index.size()));
+      if (fresh) result.patches.emplace_back();
+      result.patches[it->second].push_back(f);
+    }
+    result.quads = b_.quads;
+    result.quad_patch.resize(b_.quads.size());
+    result.point_cad.assign(b_.points.size(), CadRef{3, 1});
+    for (std::size_t q = 0; q < b_.quads.size(); ++q) {
+      result.quad_patch[q] = index.at(region_patch[region[q]]);
+      for (int n : b_.quads[q]) result.point_cad[n] = {2, result.quad_patch[q]};
+    }
+    std::vector<char> reached(model_.vertex_count() + 1, 0), wanted(model_.vertex_count() + 1, 0);
+    for (int e : real_) {
+      for (int v : model_.edge(e).vertices) wanted[v] = 1;
+      if (lost_[e]) {
+        result.lost_edges.push_back(e);
+        continue;
+      }
+      for (int v : model_.edge(e).vertices) reached[v] = 1;
+      const auto& nodes = path_[e].nodes;
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+        result.segments.push_back({nodes[i], nodes[i + 1]});
+        result.segment_edge.push_back(e);
+        result.point_cad[nodes[i + 1]] = {1, e};
+      }
+    }
+    for (int v = 1; v <= model_.vertex_count(); ++v) {
+      if (!wanted[v]) continue;
+      if (reached[v]) {
+        result.point_cad[vertex_node_[v]] = {0, v};
+      } else {
+        result.lost_vertices.push_back(v);
+      }
+    }
+  }
+
+  const CadModel& model_;
+  const TetMesh& tets_;
+  const HexBoundary& b_;
+  const AssociateOptions& options_;
+  const Monitor& monitor_;
+  Surface surface_;
+  std::vector<int> nodes_;                       // boundary nodes
+  std::vector<std::set<int>> node_charts_;       // per mesh node
+  std::vector<std::set<int>> tet_charts_;        // per tet mesh point
+  std::vector<int> chart_of_triangle_;
+  std::unordered_map<std::uint64_t, int> triangle_left_;
+  std::vector<int> real_;                        // CAD edges that count
+  std::vector<char> lost_;
+  std::vector<int> vertex_node_;
+  std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge
+  std::vector<Path> path_;
+};
+
+}  // namespace
+
+Association associate(const CadModel& model, const TetMesh& tets, const std::vector<Chart>& charts, const HexBoundary& boundary,
+                      const AssociateOptions& options, const Monitor& monitor) {
+  return Associator(model, tets, charts, boundary, options, monitor).run();
+}
+
+}  // namespace polycube

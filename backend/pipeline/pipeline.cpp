@@ -1,0 +1,238 @@
+#include "pipeline/pipeline.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "blocks/blocks.h"
+#include "core/error.h"
+#include "deform/deform.h"
+#include "fit/fit.h"
+#include "hex/hex.h"
+#include "label/features.h"
+#include "label/label.h"
+#include "pad/associate.h"
+#include "pad/pad.h"
+#include "quantize/quantize.h"
+#include "tet/tet.h"
+
+namespace polycube {
+namespace {
+
+// Good enough to stop looking for a better candidate.
+constexpr double kGoodScaledJacobian = 0.2;
+// eta of section 6.2 for the coarsest mesh.
+constexpr double kCoarsest = 1e-6;
+
+/// One way through the stages after tet; the pipeline tries them in order.
+struct Candidate {
+  std::string name;
+  double compactness = 1;     // factor on the option
+  double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path
+  bool features = true;       // feature charts at all
+};
+
+std::vector<Candidate> candidates(const MeshOptions& options) {
+  const double smooth = options.feature_angle * std::numbers::pi / 180;
+  return {{"all CAD edges", 1, smooth, true},
+          {"sharp CAD edges", 1, std::max(smooth, std::numbers::pi / 18), true},
+          {"loose labels", 0.3, std::max(smooth, std::numbers::pi / 18), true},
+          {"stiff labels", 3, std::max(smooth, std::numbers::pi / 18), true},
+          {"no feature charts", 1, std::max(smooth, std::numbers::pi / 18), false}};
+}
+
+class Run {
+ private:
+  template <class Work>
+  auto stage(const std::string& name, Work work) {
+    monitor_.progress(name, 0);
+    const auto start = Monitor::Clock::now();
+    struct Book {
+      Run* run;
+      const std::string& name;
+      Monitor::Clock::time_point start;
+      ~Book() { run->book(name, std::chrono::duration<double>(Monitor::Clock::now() - start).count()); }
+    } book{this, name, start};
+    return work();
+  }
+ public:
+  Run(const CadModel& model, const MeshOptions& options, const Monitor& monitor)
+      : model_(model), options_(options), monitor_(monitor), size_(effective_size(options, model.diagonal())) {
+    if (options.hexes > 0) size_ = std::cbrt(model.volume() / options.hexes);
+    report_.version = POLYCUBE_VERSION;
+    report_.options = options;
+    report_.size = size_;
+    report_.cad_volume = model.volume();
+  }
+
+  MeshResult run() {
+    TetOptions tet;
+    // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
+    tet.size = std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 28);
+    tets_ = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
+    report_.tets = static_cast<int>(tets_.tets.size());
+    std::optional<MeshResult> best;
+    std::optional<StageFailed> failure;
+    for (const Candidate& c : candidates(options_)) {
+      try {
+        MeshResult result = attempt(c);
+        if (!best || rank(result) > rank(*best)) best = std::move(result);
+        if (complete(*best) && best->report.quality.min_scaled_jacobian >= kGoodScaledJacobian) break;
+      } catch (const StageFailed& e) {
+        monitor_.log("candidate '" + c.name + "' failed in " + e.stage() + ": " + e.what());
+        if (!failure) failure = e;
+      }
+    }
+    if (!best) throw failure ? *failure : StageFailed("pipeline", "no candidate left");
+    best->report.stages = report_.stages;
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    best->report.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+    return std::move(*best);
+  }
+
+ private:
+  void book(const std::string& name, double seconds) {
+    for (StageRecord& s : report_.stages) {
+      if (s.name == name) {
+        s.seconds += seconds;
+        return;
+      }
+    }
+    report_.stages.push_back({name, seconds});
+  }
+
+  static bool complete(const MeshResult& r) { return r.association.lost_edges.empty() && r.association.lost_vertices.empty(); }
+  // More captured edges first, then the better worst cell.
+  static std::pair<double, double> rank(const MeshResult& r) {
+    const double quality = r.report.quality.min_scaled_jacobian;
+    return {-static_cast<double>(r.association.lost_edges.size()) + 0.5 * (quality > 0.05), quality};
+  }
+
+  MeshResult attempt(const Candidate& c) {
+    MeshResult result;
+    result.report = report_;
+    LabelOptions label_options;
+    label_options.fidelity = options_.fidelity;
+    label_options.compactness = options_.compactness * c.compactness;
+    label_options.face_labels = options_.labels;
+    const Labelling labelling = stage("label", [&] { return label(model_, tets_, label_options, monitor_); });
+    Features features = stage("label", [&] { return find_features(model_, tets_, labelling, c.min_bend, monitor_); });
+    if (!c.features) features.charts.clear();
+
+    DeformOptions deform_options;
+    deform_options.merge = 0.02 * size_;
+    DeformReport deform_report;
+    const PolycuboidMap map =
+        stage("deform", [&] { return deform(tets_, labelling.frame, labelling.label, features.charts, deform_options, monitor_, &deform_report); });
+    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(deform_report.flipped) + " flipped of " +
+                 std::to_string(tets_.tets.size()) + " tets");
+    const BlockComplex blocks = stage("blocks", [&] { return extract_blocks(tets_, map, monitor_); });
+    QuantizeOptions quantize_options;
+    quantize_options.scale = options_.coarsest ? kCoarsest : 1 / size_;
+    const Quantization quantization = stage("quantize", [&] { return quantize(blocks, map, quantize_options, monitor_); });
+    HexComplex complex = stage("hex", [&] { return build_hexes(tets_, map, blocks, quantization, monitor_); });
+    monitor_.log("hex: " + std::to_string(blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
+
+    AssociateOptions associate_options;
+    associate_options.size = typical_edge(complex.mesh);
+    associate_options.edge_chains = edge_chains(model_, tets_);
+    for (const FeatureEdge& e : features.edges) {
+      const CadEdge& edge = model_.edge(e.edge);
+      const double bend = std::max(std::abs(edge.min_angle - std::numbers::pi), std::abs(edge.max_angle - std::numbers::pi));
+      if (bend < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
+      if (e.capture == EdgeCapture::kLost) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+    }
+    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+    const Association association =
+        stage("pad", [&] { return associate(model_, tets_, map.charts, boundary, associate_options, monitor_); });
+    monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
+                 std::to_string(association.lost_vertices.size()) + " vertices without mesh");
+    PadReport pad_report;
+    PaddedMesh padded = stage("pad", [&] { return pad(model_, complex.mesh, association, monitor_, &pad_report); });
+    monitor_.log("pad: " + std::to_string(pad_report.added_hexes) + " hexes added, " + std::to_string(pad_report.rings) + " rings");
+
+    FitOptions fit_options;
+    if (options_.threads > 0) fit_options.threads = options_.threads;
+    const FitReport fitted = stage("fit", [&] { return fit(model_, padded.mesh, padded.association, fit_options, monitor_); });
+    monitor_.log("fit: min SJ " + std::to_string(fitted.min_scaled_jacobian) + ", mean " + std::to_string(fitted.mean_scaled_jacobian) + ", " +
+                 std::to_string(fitted.inverted) + " inverted");
+    if (fitted.inverted > 0) {
+      std::vector<CadRef> faces;
+      for (int f : fitted.bad_faces) faces.push_back({2, f});
+      throw StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
+    }
+    gate(padded);
+    result.report.charts = static_cast<int>(map.charts.size());
+    result.report.blocks = static_cast<int>(blocks.blocks.size());
+    result.report.quantization_objective = quantization.objective;
+    result.report.quantization_bound = quantization.bound;
+    result.report.padded_hexes = pad_report.added_hexes;
+    finish(result, std::move(padded));
+    return result;
+  }
+
+  static double typical_edge(const HexMesh& mesh) {
+    double sum = 0;
+    for (const Hex& h : mesh.hexes) {
+      sum += (mesh.points[h[0]] - mesh.points[h[1]]).norm() + (mesh.points[h[0]] - mesh.points[h[3]]).norm() + (mesh.points[h[0]] - mesh.points[h[4]]).norm();
+    }
+    return sum / (3.0 * static_cast<double>(mesh.hexes.size()));
+  }
+
+  // Nothing passes that is not a conforming mesh of positive cells with the surface of the solid.
+  void gate(const PaddedMesh& padded) const {
+    const QualitySummary q = summarise(padded.mesh);
+    if (padded.mesh.hexes.empty() || q.inverted > 0 || !(q.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells without positive Jacobian");
+    const std::vector<std::string> faults = check(padded.mesh, padded.association);
+    if (!faults.empty()) throw StageFailed("pad", "the mesh does not conform: " + faults.front());
+    std::set<int> nodes;
+    std::set<std::pair<int, int>> edges;
+    for (const Quad& quad : padded.association.quads) {
+      for (int k = 0; k < 4; ++k) {
+        nodes.insert(quad[k]);
+        edges.insert(std::minmax(quad[k], quad[(k + 1) % 4]));
+      }
+    }
+    const int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(padded.association.quads.size());
+    if (euler != model_.euler_characteristic()) throw StageFailed("hex", "the mesh has another topology than the solid");
+  }
+
+  void finish(MeshResult& result, PaddedMesh padded) const {
+    result.mesh = std::move(padded.mesh);
+    result.association = std::move(padded.association);
+    MeshReport& r = result.report;
+    r.hexes = static_cast<int>(result.mesh.hexes.size());
+    r.nodes = static_cast<int>(result.mesh.points.size());
+    r.quality = summarise(result.mesh);
+    for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
+    r.worst = worst_cells(result.mesh, result.association);
+    std::vector<int> real;
+    for (int e = 1; e <= model_.edge_count(); ++e) {
+      if (!model_.edge(e).seam && !model_.edge(e).degenerate) real.push_back(e);
+    }
+    r.capture = capture(result.association, model_.vertex_count(), real, model_.face_count());
+    for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
+  }
+
+  const CadModel& model_;
+  const MeshOptions& options_;
+  const Monitor& monitor_;
+  double size_;
+  TetMesh tets_;
+  MeshReport report_;
+};
+
+}  // namespace
+
+MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
+  check(options);
+  check(options, model.diagonal(), model.face_count());
+  return Run(model, options, monitor).run();
+}
+
+}  // namespace polycube

@@ -1,0 +1,227 @@
+"""FreeCAD's own examples and simple loads, solved by CalculiX on our meshes."""
+
+import os
+import re
+import shutil
+import tempfile
+import unittest
+
+import FreeCAD
+import ObjectsFem
+import Part
+from FreeCAD import Vector
+from femtools import ccxtools
+
+from freecad import polycube
+from freecad.polycube import objects
+
+
+def solve(analysis, solver, folder):
+    """Writes the input file, runs CalculiX and loads the results; returns (path of the input file, result object)."""
+    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
+    fea.update_objects()
+    fea.setup_working_dir(folder)
+    fea.setup_ccx()
+    message = fea.check_prerequisites()
+    if message:
+        raise AssertionError(message)
+    fea.write_inp_file()
+    fea.ccx_run()
+    fea.load_results()
+    results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]
+    return fea.inp_file_name, results[0] if results else None
+
+
+def nodal_loads(path):
+    """Sum of the *CLOAD lines of an input file, (x, y, z)."""
+    sums, reading = [0.0, 0.0, 0.0], False
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                reading = reading and line.startswith("**") or line.upper().startswith("*CLOAD")
+            elif reading and re.match(r"\d+,\d,", line.replace(" ", "")):
+                _, axis, value = line.split(",")[:3]
+                sums[int(axis) - 1] += float(value)
+    return Vector(*sums)
+
+
+def pressure_faces(path):
+    """(element, face number 1 to 6, pressure) of the *DLOAD lines of an input file."""
+    found, reading = [], False
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                reading = reading and line.startswith("**") or line.upper().startswith("*DLOAD")
+            elif reading and re.match(r"\d+,P\d,", line.replace(" ", "")):
+                element, face, value = line.replace(" ", "").split(",")[:3]
+                found.append((int(element), int(face[1:]), float(value)))
+    return found
+
+
+def total_reaction(path):
+    """Sum of the reaction forces that CalculiX printed beside the input file."""
+    with open(os.path.splitext(path)[0] + ".dat", encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    start = next(i for i, line in enumerate(lines) if line.strip().startswith("total force"))
+    return Vector(*[float(value) for value in lines[start + 2].split()[:3]])
+
+
+def quad_area_vector(points):
+    """Area vector of an 8-node face (corners, then mid nodes in between): integral of its normal by 3 x 3 Gauss points."""
+    corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    middles = [(0, -1), (1, 0), (0, 1), (-1, 0)]
+    total = Vector()
+    gauss = ((-(0.6**0.5), 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9))
+    for r, weight_r in gauss:
+        for s, weight_s in gauss:
+            along_r, along_s = Vector(), Vector()
+            for point, (a, b) in zip(points, corners):
+                along_r += point * (0.25 * a * (1 + b * s) * (2 * a * r + b * s))
+                along_s += point * (0.25 * b * (1 + a * r) * (2 * b * s + a * r))
+            for point, (a, b) in zip(points[4:], middles):
+                if a == 0:
+                    along_r += point * (-r * (1 + b * s))
+                    along_s += point * (0.5 * b * (1 - r * r))
+                else:
+                    along_r += point * (0.5 * a * (1 - s * s))
+                    along_s += point * (-s * (1 + a * r))
+            total += along_r.cross(along_s) * (weight_r * weight_s)
+    return total
+
+
+class SolverTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="polycube-solver-")
+        self.addCleanup(shutil.rmtree, self.folder, True)
+        self.document = None
+
+    def tearDown(self):
+        if self.document:
+            FreeCAD.closeDocument(self.document.Name)
+
+    def analysis(self, part, fixed):
+        """Analysis with steel, one fixed face and a CalculiX solver."""
+        document = part.Document
+        analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+        solver = analysis.addObject(ObjectsFem.makeSolverCalculixCcxTools(document, "Solver"))[0]
+        material = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
+        values = material.Material
+        values.update({"Name": "Steel", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.30"})
+        material.Material = values
+        support = analysis.addObject(ObjectsFem.makeConstraintFixed(document, "Support"))[0]
+        support.References = [(part, fixed)]
+        return analysis, solver
+
+
+class Cantilever(SolverTest):
+    def test_faceload(self):
+        """FreeCAD's ccx_cantilever_faceload, 8 m long, 9 MN at its end: beam theory with shear gives -87.8 mm."""
+        from femexamples import ccx_cantilever_faceload
+
+        self.document = ccx_cantilever_faceload.setup()
+        document = self.document
+        document.removeObject(document.getObject("Mesh").Name)
+        obj = polycube.create_fem_mesh(document.Box, size=500, order=2, analysis=document.Analysis)
+        self.assertEqual(objects.analysis_of(obj), document.Analysis)
+        document.recompute()
+        path, result = solve(document.Analysis, document.CalculiXccxTools, self.folder)
+        self.assertLess((nodal_loads(path) - Vector(0, 0, -9e6)).Length, 1e-4 * 9e6)
+        lowest = min(vector.z for vector in result.DisplacementVectors)
+        self.assertGreater(lowest, -88.6)
+        self.assertLess(lowest, -86.8)
+        self.assertLess((total_reaction(path) - Vector(0, 0, 9e6)).Length, 0.005 * 9e6)
+
+
+class CylinderSide(SolverTest):
+    RADIUS, HEIGHT = 10.0, 30.0
+
+    def cylinder(self):
+        self.document = FreeCAD.newDocument()
+        part = self.document.addObject("Part::Cylinder", "Cylinder")
+        part.Radius, part.Height = self.RADIUS, self.HEIGHT
+        self.document.recompute()
+        side = "Face{}".format(1 + [face.Surface.TypeId for face in part.Shape.Faces].index("Part::GeomCylinder"))
+        ends = ["Face{}".format(i + 1) for i, face in enumerate(part.Shape.Faces) if face.Surface.TypeId == "Part::GeomPlane"]
+        return part, side, ends
+
+    def test_force_arrives_whole(self):
+        part, side, ends = self.cylinder()
+        analysis, solver = self.analysis(part, ends[0])
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Force"))[0]
+        force.References = [(part, side)]
+        force.Force = 1000
+        force.Direction = (part, [ends[1]])
+        polycube.create_fem_mesh(part, size=4, analysis=analysis)
+        self.document.recompute()
+        path, result = solve(analysis, solver, self.folder)
+        # The supports' reaction is no measure here: the rim belongs to both faces, its share of the force goes straight into the support.
+        self.assertAlmostEqual(nodal_loads(path).Length, 1000, delta=20)
+        self.assertGreater(max(result.DisplacementLengths), 0)
+
+    def test_pressure_arrives_whole(self):
+        part, side, ends = self.cylinder()
+        analysis, solver = self.analysis(part, ends[0])
+        pressure = analysis.addObject(ObjectsFem.makeConstraintPressure(self.document, "Pressure"))[0]
+        pressure.References = [(part, side)]
+        pressure.Pressure = 5.0
+        obj = polycube.create_fem_mesh(part, size=4, analysis=analysis)
+        self.document.recompute()
+        path, _ = solve(analysis, solver, self.folder)
+        faces = pressure_faces(path)
+        mesh = obj.FemMesh
+        group = next(group for group in mesh.Groups if mesh.getGroupName(group) == side)
+        self.assertEqual(len(faces), len(mesh.getGroupElements(group)))
+        self.assertEqual(len(set(faces)), len(faces))
+        self.assertEqual({value for _, _, value in faces}, {5.0})
+        # SMESH's winding of a boundary quad is ours: outward. The loaded area is that of the CAD face.
+        area, resultant = 0.0, Vector()
+        for quad in mesh.getGroupElements(group):
+            vector = quad_area_vector([mesh.getNodeById(node) for node in mesh.getElementNodes(quad)])
+            area += vector.Length
+            resultant += vector
+        self.assertAlmostEqual(area / part.Shape.getElement(side).Area, 1, delta=0.02)
+        self.assertLess(resultant.Length, 1e-3 * area)
+
+    def test_pressure_on_an_end_is_carried_by_the_other(self):
+        part, _, ends = self.cylinder()
+        analysis, solver = self.analysis(part, ends[0])
+        pressure = analysis.addObject(ObjectsFem.makeConstraintPressure(self.document, "Pressure"))[0]
+        pressure.References = [(part, ends[1])]
+        pressure.Pressure = 5.0
+        polycube.create_fem_mesh(part, size=4, analysis=analysis)
+        self.document.recompute()
+        path, _ = solve(analysis, solver, self.folder)
+        expected = 5.0 * part.Shape.getElement(ends[1]).Area
+        self.assertAlmostEqual(total_reaction(path).Length / expected, 1, delta=0.02)
+
+
+class Warnings(SolverTest):
+    def test_constraints_that_freecad_drops_on_hexahedra(self):
+        self.document = FreeCAD.newDocument()
+        part = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        analysis, _ = self.analysis(part, "Face1")
+        flux = analysis.addObject(ObjectsFem.makeConstraintHeatflux(self.document, "Flux"))[0]
+        flux.References = [(part, "Face2")]
+        result = polycube.mesh(part, size=5)
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        warnings = objects.set_mesh(obj, result, {"size": 5})
+        self.assertTrue(any("heat flux" in line for line in warnings), warnings)
+
+    def test_groups_replace_a_search_that_misses_nodes(self):
+        """A mesh whose nodes are 1e-6 mm off the face: FreeCAD's search finds none of them, the group does."""
+        self.document = FreeCAD.newDocument()
+        part = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        analysis, _ = self.analysis(part, "Face1")
+        result = polycube.mesh(part, size=5)
+        result.nodes[result.groups["Face1"]["nodes"]] += (1e-6, 0, 0)
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        objects.set_mesh(obj, result, {"size": 5})
+        names = [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups]
+        self.assertIn("Support_Nodes", names)
+        group = obj.FemMesh.Groups[names.index("Support_Nodes")]
+        self.assertEqual(obj.FemMesh.getGroupElementType(group), "Node")
+        self.assertEqual(len(obj.FemMesh.getGroupElements(group)), len(result.groups["Face1"]["nodes"]))

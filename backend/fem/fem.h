@@ -1,0 +1,58 @@
+// The finite element mesh: elements of first or second order, boundary faces, and a group per CAD entity; and its files.
+#pragma once
+
+#include <string>
+
+#include "cad/cad.h"
+#include "core/mesh.h"
+#include "core/monitor.h"
+
+namespace polycube {
+
+/// Nodes and elements that stand for one CAD entity. 0-based, ascending.
+struct FemGroup {
+  CadRef entity;
+  std::vector<int> nodes;
+  std::vector<int> elements;  ///< solid: hexes; face: quads; edge: segments; vertex: none
+};
+
+/// Node order within elements is VTK's (= Abaqus'): corners, then mid-edge nodes in the order of kHexEdges. In a mesh of order 1 the
+/// places of mid-edge nodes hold -1.
+struct FemMesh {
+  int order = 1;
+  int corner_count = 0;                         ///< points before this one are corners, the others mid-edge nodes
+  std::vector<Vec3> points;                     ///< mm
+  std::vector<std::array<int, 20>> hexes;
+  std::vector<std::array<int, 8>> quads;        ///< all boundary faces, outward
+  std::vector<int> quad_face;                   ///< per quad: CAD face
+  std::vector<std::array<int, 2>> quad_hex;     ///< per quad: its hex, and the hex's face 0 to 5 as Abaqus' S1 to S6
+  std::vector<std::array<int, 3>> segments;     ///< start, end, middle
+  std::vector<int> segment_edge;                ///< per segment: CAD edge
+  std::vector<FemGroup> groups;                 ///< ascending by entity; only entities that have a node
+  int straightened = 0;                         ///< curved edges left straight because curving would spoil a cell
+};
+
+struct FemOptions {
+  int order = 2;
+  int threads = 0;  ///< 0: all cores. The result does not depend on it.
+};
+
+/// Mid-edge nodes go to the CAD edge or face they stand for, straight inside. Throws StageFailed("fem", ...) where a cell's Jacobian is
+/// not positive at an integration point even with straight edges.
+FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options,
+                       const Monitor& monitor);
+
+/// Smallest Jacobian determinant of a cell at its 8 corners and 27 Gauss points, mm^3 (of the reference cube [-1, 1]^3).
+double least_jacobian(const FemMesh& mesh, int hex);
+
+/// SMESH (FreeCAD, MED) winds cells the other way: its node i is our node kSmeshHex20[i]. The first 8 are those of the 8-node cell.
+inline constexpr std::array<int, 20> kSmeshHex20{0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17};
+
+/// Writes by suffix: .inp (CalculiX/Abaqus), .unv, .vtu, .med, .mesh (Medit; corners only). `element_type` is the Abaqus name for .inp.
+/// The file appears complete or not at all. Throws InvalidInput: unknown suffix, folder missing, not writable.
+void write(const FemMesh& mesh, const std::string& path, const std::string& element_type, const Monitor& monitor);
+
+/// Throws InvalidInput unless `write` knows the suffix and the folder exists. For a check before the work.
+void check_output(const std::string& path);
+
+}  // namespace polycube

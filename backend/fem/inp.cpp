@@ -1,0 +1,65 @@
+// CalculiX and Abaqus input: nodes, one element block, node and element sets and a surface for CAD entities.
+#include "core/error.h"
+#include "fem/formats.h"
+
+namespace polycube {
+namespace {
+
+/// Numbers 16 to a line, the longest that CalculiX reads.
+template <typename Range>
+void append_set(std::string& text, const Range& numbers) {
+  constexpr int kPerLine = 16;
+  int column = 0;
+  for (int number : numbers) {
+    append(text, column == 0 ? "%d" : ", %d", number);
+    if (++column < kPerLine) continue;
+    text += ",\n";
+    column = 0;
+  }
+  if (column > 0) text += '\n';
+}
+
+std::vector<int> plus_one(std::vector<int> numbers) {
+  for (int& number : numbers) ++number;
+  return numbers;
+}
+
+}  // namespace
+
+std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
+  const bool quadratic = element_type.rfind("C3D20", 0) == 0;
+  if (quadratic != (mesh.order == 2))
+    throw InvalidInput("element type " + element_type + " does not fit a mesh of order " + std::to_string(mesh.order));
+  std::string text = "** Hexahedral mesh by Polycube. Sets and surfaces are named after CAD entities. Lengths in mm.\n*NODE, NSET=Nall\n";
+  text.reserve(mesh.points.size() * 80 + mesh.hexes.size() * 160);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+    append(text, "%zu, %.17g, %.17g, %.17g\n", p + 1, mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]);
+  text += "*ELEMENT, TYPE=" + element_type + ", ELSET=Eall\n";
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h) {
+    append(text, "%zu", h + 1);
+    for (int i = 0; i < hex_nodes(mesh); ++i) append(text, i == 15 ? ",\n%d" : ", %d", mesh.hexes[h][i] + 1);
+    text += '\n';
+  }
+  for (const FemGroup& group : mesh.groups) {
+    const std::string name = group_name(group);
+    text += "*NSET, NSET=" + name + "\n";
+    append_set(text, plus_one(group.nodes));
+    if (group.entity.dim == 3) {
+      text += "*ELSET, ELSET=" + name + "\n";
+      append_set(text, plus_one(group.elements));
+    }
+    if (group.entity.dim == 2) {
+      std::vector<int> cells;
+      for (int q : group.elements) cells.push_back(mesh.quad_hex[q][0] + 1);
+      std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+      text += "*ELSET, ELSET=" + name + "\n";
+      append_set(text, cells);
+      text += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
+      for (int q : group.elements) append(text, "%d, S%d\n", mesh.quad_hex[q][0] + 1, mesh.quad_hex[q][1] + 1);
+    }
+  }
+  return text;
+}
+
+}  // namespace polycube

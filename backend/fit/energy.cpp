@@ -1,0 +1,256 @@
+#include "fit/energy.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "core/hexahedron.h"
+#include "fit/parallel.h"
+
+namespace polycube {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kChunk = 512;
+constexpr int kMemory = 8;              // pairs L-BFGS remembers
+constexpr double kLongestStep = 0.4;    // of the wanted edge length, a node and iteration
+
+// Axis of each of the three edges of a corner, in the order of kCornerNeighbours.
+constexpr std::array<std::array<int, 3>, 8> corner_axes() {
+  std::array<std::array<int, 3>, 8> axes{};
+  for (int c = 0; c < 8; ++c) {
+    for (int k = 0; k < 3; ++k) {
+      const int d = kCornerNeighbours[c][k];
+      for (int a = 0; a < 3; ++a) {
+        if (kCornerCoordinates[c][a] != kCornerCoordinates[d][a]) axes[c][k] = a;
+      }
+    }
+  }
+  return axes;
+}
+constexpr auto kCornerAxes = corner_axes();
+
+double determinant(const std::vector<Vec3>& points, const Hex& hex, int c, const Vec3& lengths) {
+  const Vec3& x = points[hex[c]];
+  const auto& n = kCornerNeighbours[c];
+  return (points[hex[n[0]]] - x).dot((points[hex[n[1]]] - x).cross(points[hex[n[2]]] - x)) / lengths.prod();
+}
+
+// Energy of one corner and its derivatives by the three scaled edge vectors.
+double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::array<Vec3, 3>& gradient) {
+  const std::array<Vec3, 3> cofactor{j[1].cross(j[2]), j[2].cross(j[0]), j[0].cross(j[1])};
+  const double det = j[0].dot(cofactor[0]);
+  const double root = std::sqrt(energy.eps * energy.eps + det * det);
+  if (energy.eps == 0 && det <= 0) return kInfinity;
+  // The second form of chi keeps its digits where det is far below 0.
+  const double chi = det >= 0 ? (det + root) / 2 : energy.eps * energy.eps / (2 * (root - det));
+  if (chi < 1e-200) return kInfinity;
+  const double slope = chi / root;  // d chi / d det
+  const double trace = j[0].squaredNorm() + j[1].squaredNorm() + j[2].squaredNorm();
+  const double power = std::cbrt(chi * chi);
+  double value = energy.shape * (trace / (3 * power) + (det * det + 1) / (2 * chi));
+  double by_det = energy.shape * (-2.0 / 9.0 * trace / (power * chi) * slope + det / chi - (det * det + 1) / (2 * chi * chi) * slope);
+  std::array<double, 3> by_edge;
+  by_edge.fill(energy.shape * 2 / (3 * power));
+  if (energy.right > 0) {
+    const std::array<double, 3> squared{j[0].squaredNorm(), j[1].squaredNorm(), j[2].squaredNorm()};
+    const double inverse = std::sqrt(squared[0] * squared[1] * squared[2]) / chi;
+    double raised = energy.right;
+    for (int k = 0; k < energy.power; ++k) raised *= inverse;
+    value += raised;
+    by_det -= energy.power * raised / chi * slope;
+    for (int k = 0; k < 3; ++k) by_edge[k] += energy.power * raised / std::max(squared[k], 1e-300);
+  }
+  for (int k = 0; k < 3; ++k) gradient[k] = by_edge[k] * j[k] + by_det * cofactor[k];
+  return value;
+}
+
+double dot(const std::vector<Vec3>& x, const std::vector<Vec3>& y, int threads) {
+  const int count = static_cast<int>(x.size());
+  std::vector<double> partial((count + 8 * kChunk - 1) / (8 * kChunk));
+  for_chunks(count, 8 * kChunk, threads, [&](int chunk, int first, int last) {
+    double sum = 0;
+    for (int i = first; i < last; ++i) sum += x[i].dot(y[i]);
+    partial[chunk] = sum;
+  });
+  double total = 0;
+  for (double p : partial) total += p;
+  return total;
+}
+
+// x += factor * y
+void add(std::vector<Vec3>& x, double factor, const std::vector<Vec3>& y, int threads) {
+  for_chunks(static_cast<int>(x.size()), 8 * kChunk, threads, [&](int, int first, int last) {
+    for (int i = first; i < last; ++i) x[i] += factor * y[i];
+  });
+}
+
+// The last pairs of steps and gradient changes, and the direction they give.
+class History {
+ public:
+  History(const std::vector<double>& sizes, int threads) : sizes_(sizes), threads_(threads) {}
+
+  void add_pair(std::vector<Vec3> step, std::vector<Vec3> change) {
+    const double curvature = dot(step, change, threads_);
+    double scaled = 0;
+    for (std::size_t i = 0; i < change.size(); ++i) scaled += sizes_[i] * sizes_[i] * change[i].squaredNorm();
+    if (!(curvature > 1e-12 * scaled) || !(scaled > 0)) return;
+    if (pairs_.size() == kMemory) pairs_.erase(pairs_.begin());
+    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
+    scale_ = curvature / scaled;
+  }
+  void clear() { pairs_.clear(); }
+  bool empty() const { return pairs_.empty(); }
+
+  std::vector<Vec3> direction(const std::vector<Vec3>& gradient) const {
+    std::vector<Vec3> d = gradient;
+    std::vector<double> alpha(pairs_.size());
+    for (int i = static_cast<int>(pairs_.size()) - 1; i >= 0; --i) {
+      alpha[i] = pairs_[i].rho * dot(pairs_[i].step, d, threads_);
+      add(d, -alpha[i], pairs_[i].change, threads_);
+    }
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] *= -scale_ * sizes_[i] * sizes_[i];
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const double beta = -pairs_[i].rho * dot(pairs_[i].change, d, threads_);
+      add(d, beta - alpha[i], pairs_[i].step, threads_);
+    }
+    return d;
+  }
+
+ private:
+  struct Pair {
+    std::vector<Vec3> step, change;
+    double rho;
+  };
+  const std::vector<double>& sizes_;
+  int threads_;
+  std::vector<Pair> pairs_;
+  double scale_ = 0.02;
+};
+
+}  // namespace
+
+Descent::Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor)
+    : mesh_(mesh), graph_(graph), entities_(entities), threads_(threads), monitor_(monitor), slot_(mesh.hexes.size(), -1) {}
+
+double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& region) const {
+  const int count = static_cast<int>(region.hexes.size());
+  std::vector<double> partial((count + kChunk - 1) / kChunk, kInfinity);
+  for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const int h = region.hexes[i];
+      for (int c = 0; c < 8; ++c) partial[chunk] = std::min(partial[chunk], determinant(mesh_.points, mesh_.hexes[h], c, targets[h]));
+    }
+  });
+  return partial.empty() ? kInfinity : *std::min_element(partial.begin(), partial.end());
+}
+
+double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Vec3>& points,
+                         std::vector<Vec3>& gradient) {
+  const int count = static_cast<int>(region.hexes.size());
+  std::vector<double> partial((count + kChunk - 1) / kChunk);
+  for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
+    double sum = 0;
+    for (int i = first; i < last; ++i) {
+      const int h = region.hexes[i];
+      const Hex& hex = mesh_.hexes[h];
+      const Vec3 inverse = targets[h].cwiseInverse();
+      Eigen::Map<Eigen::Matrix<double, 3, 8>> g(corner_gradient_.data() + 24 * static_cast<std::size_t>(i));
+      g.setZero();
+      for (int c = 0; c < 8; ++c) {
+        std::array<Vec3, 3> j, by;
+        for (int k = 0; k < 3; ++k) j[k] = (points[hex[kCornerNeighbours[c][k]]] - points[hex[c]]) * inverse[kCornerAxes[c][k]];
+        const double value = corner_energy(energy, j, by);
+        sum += value;
+        if (value == kInfinity) break;
+        for (int k = 0; k < 3; ++k) {
+          by[k] *= inverse[kCornerAxes[c][k]];
+          g.col(kCornerNeighbours[c][k]) += by[k];
+          g.col(c) -= by[k];
+        }
+      }
+    }
+    partial[chunk] = sum;
+  });
+  double total = 0;
+  for (double p : partial) total += p;
+  if (!(total < kInfinity)) return kInfinity;
+  for_chunks(static_cast<int>(region.nodes.size()), kChunk, threads_, [&](int, int first, int last) {
+    for (int i = first; i < last; ++i) {
+      const int v = region.nodes[i];
+      Vec3 sum = Vec3::Zero();
+      for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
+        const int at = slot_[graph_.corners[k] / 8];
+        if (at >= 0) sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
+      }
+      gradient[i] = entities_.along(v, sum);
+    }
+  });
+  return total;
+}
+
+DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, int max_iterations) {
+  for (std::size_t i = 0; i < region.hexes.size(); ++i) slot_[region.hexes[i]] = static_cast<int>(i);
+  corner_gradient_.resize(24 * region.hexes.size());
+  const std::size_t count = region.nodes.size();
+  std::vector<double> sizes(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int v = region.nodes[i];
+    double sum = 0;
+    for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) sum += std::cbrt(targets[graph_.corners[k] / 8].prod());
+    sizes[i] = sum / std::max(1, graph_.first[v + 1] - graph_.first[v]);
+  }
+  std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points;
+  DescentResult result;
+  result.start_energy = result.energy = evaluate(energy, targets, region, mesh_.points, gradient);
+  History history(sizes, threads_);
+  while (result.energy < kInfinity && result.iterations < max_iterations) {
+    monitor_.check();
+    std::vector<Vec3> direction = history.direction(gradient);
+    const auto limit = [&] {
+      for (std::size_t i = 0; i < count; ++i) {
+        const double length = direction[i].norm(), longest = kLongestStep * sizes[i];
+        if (length > longest) direction[i] *= longest / length;
+      }
+    };
+    limit();
+    double slope = dot(direction, gradient, threads_);
+    if (!(slope < 0)) {
+      history.clear();
+      direction = history.direction(gradient);
+      limit();
+      slope = dot(direction, gradient, threads_);
+      if (!(slope < 0)) break;
+    }
+    double step = 1, value = kInfinity;
+    for (int attempt = 0; attempt < 14; ++attempt, step /= 2) {
+      for (std::size_t i = 0; i < count; ++i) moved[region.nodes[i]] = mesh_.points[region.nodes[i]] + step * direction[i];
+      value = evaluate(energy, targets, region, moved, trial_gradient);
+      if (value <= result.energy + 1e-4 * step * slope) break;
+      value = kInfinity;
+    }
+    if (value == kInfinity) {
+      if (history.empty()) break;
+      history.clear();
+      continue;
+    }
+    ++result.iterations;
+    std::vector<Vec3> change(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const int v = region.nodes[i];
+      mesh_.points[v] = moved[v];
+      direction[i] *= step;
+      change[i] = trial_gradient[i] - gradient[i];
+    }
+    gradient.swap(trial_gradient);
+    history.add_pair(std::move(direction), std::move(change));
+    const double gain = result.energy - value;
+    result.energy = value;
+    if (gain < 1e-6 * value) break;
+  }
+  for (int h : region.hexes) slot_[h] = -1;
+  return result;
+}
+
+}  // namespace polycube

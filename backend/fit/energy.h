@@ -1,0 +1,64 @@
+// Energies of hexahedra and their minimisation over nodes that slide on their CAD entities.
+#pragma once
+
+#include "core/monitor.h"
+#include "fit/entities.h"
+
+namespace polycube {
+
+/// Which hexes touch a node, and which lie side by side.
+struct HexGraph {
+  std::vector<int> first, corners;              ///< CSR over nodes: 8 * hex + corner, ascending
+  std::vector<std::array<int, 6>> neighbours;   ///< per hex and face: the hex beyond, -1 at the boundary
+  std::vector<std::array<std::array<int, 3>, 6>> axes;  ///< per hex and face: the neighbour's axis that goes with each of the hex's axes
+};
+
+HexGraph build_hex_graph(const HexMesh& mesh);
+
+/// Wanted edge lengths of every hex along its three axes: those it has, smoothed over its neighbours, within a factor of 8 of each other.
+std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int smoothing_steps);
+
+/// What is minimised. With J the matrix of a corner's three edges over the wanted lengths, D = det J and chi(D) = (D + sqrt(eps^2 + D^2)) / 2:
+///   shape * (tr(J^T J) / (3 chi^(2/3)) + (D^2 + 1) / (2 chi))  +  right * (|J_1| |J_2| |J_3| / chi)^power
+/// summed over the eight corners of each hex (Garanzha et al. 2021; the second term is the power of the inverse scaled Jacobian).
+struct Energy {
+  double shape = 1;
+  double right = 0;
+  int power = 1;
+  double eps = 0;   ///< 0: a barrier, infinite where D <= 0
+};
+
+struct Region {
+  std::vector<int> hexes;  ///< over which is summed, ascending
+  std::vector<int> nodes;  ///< that may move, ascending
+};
+
+struct DescentResult {
+  double energy = 0;
+  double start_energy = 0;
+  int iterations = 0;
+};
+
+/// L-BFGS with nodes moving in the tangent spaces noted by `entities`; nodes leave their entities by the curvature, project them afterwards.
+class Descent {
+ public:
+  Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor);
+
+  DescentResult run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, int max_iterations);
+  /// Smallest det J of the region.
+  double min_determinant(const std::vector<Vec3>& targets, const Region& region) const;
+
+ private:
+  double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Vec3>& points,
+                  std::vector<Vec3>& gradient);
+
+  HexMesh& mesh_;
+  const HexGraph& graph_;
+  const Entities& entities_;
+  int threads_;
+  const Monitor& monitor_;
+  std::vector<int> slot_;             // per hex: its place in the region, -1
+  std::vector<double> corner_gradient_;
+};
+
+}  // namespace polycube

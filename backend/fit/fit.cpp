@@ -1,0 +1,158 @@
+#include "fit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/quality.h"
+#include "fit/energy.h"
+#include "fit/start.h"
+
+namespace polycube {
+
+namespace {
+
+constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
+
+// How good a mesh is: first no inverted cells, then the worst cell up to the target, then the mean.
+struct Score {
+  int inverted = 0;
+  double worst = 0, mean = 0;
+  bool better_than(const Score& other, double target) const {
+    if (inverted != other.inverted) return inverted < other.inverted;
+    const double mine = std::min(worst, target), theirs = std::min(other.worst, target);
+    return mine != theirs ? mine > theirs : mean > other.mean;
+  }
+};
+
+class Fitting {
+ public:
+  Fitting(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor)
+      : model_(model), mesh_(mesh), association_(association), options_(options), monitor_(monitor), graph_(build_hex_graph(mesh)),
+        entities_(model, association, options.threads), descent_(mesh, graph_, entities_, options.threads, monitor) {
+    whole_.hexes.resize(mesh.hexes.size());
+    std::iota(whole_.hexes.begin(), whole_.hexes.end(), 0);
+    whole_.nodes = movable(whole_.hexes);
+  }
+
+  FitReport run() {
+    place_on_cad(model_, mesh_, association_, entities_, monitor_);
+    best_ = mesh_.points;
+    score_ = rate();
+    monitor_.progress("fit", 0.15);
+    untangle();
+    monitor_.progress("fit", 0.5);
+    square_up();
+    mesh_.points = best_;
+    entities_.project(mesh_.points);
+    return report();
+  }
+
+ private:
+  std::vector<int> movable(const std::vector<int>& hexes) const {
+    std::vector<int> nodes;
+    for (int h : hexes) nodes.insert(nodes.end(), mesh_.hexes[h].begin(), mesh_.hexes[h].end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    std::erase_if(nodes, [&](int v) { return entities_.dimension(v) == 0; });
+    return nodes;
+  }
+
+  Score rate() const {
+    const QualitySummary q = summarise(mesh_);
+    return {q.inverted, q.min_scaled_jacobian, q.mean_scaled_jacobian};
+  }
+
+  // Notes the mesh if it is the best so far.
+  bool note_if_best() {
+    const Score now = rate();
+    if (!now.better_than(score_, options_.target_scaled_jacobian)) return false;
+    score_ = now;
+    best_ = mesh_.points;
+    return true;
+  }
+
+  // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).
+  void untangle() {
+    Energy energy;
+    for (int round = 0; round < options_.max_rounds; ++round) {
+      const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
+      const double least = descent_.min_determinant(targets, whole_);
+      if (round == 0 || least <= 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * std::min(least, 0.0) * std::min(least, 0.0)));
+      const DescentResult result = descent_.run(energy, targets, whole_, 20);
+      entities_.project(mesh_.points);
+      const bool improved = note_if_best();
+      monitor_.progress("fit", 0.15 + 0.35 * round / options_.max_rounds);
+      const double reached = descent_.min_determinant(targets, whole_);
+      const double gain = 1 - result.energy / result.start_energy;
+      if (reached > 0 && (gain < 2e-3 || (!improved && round > 5))) break;
+      const double rate_of_fall = std::max(gain, 0.1);
+      const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
+      const double wanted = (1 - rate_of_fall) * chi;
+      energy.eps = reached < wanted ? 2 * std::sqrt(wanted * (wanted - reached)) : 1e-9;
+    }
+  }
+
+  // Powers of the inverse scaled Jacobian over the whole mesh, each from the best mesh so far.
+  void square_up() {
+    if (score_.inverted > 0) return;
+    for (int power : {2, 4, 8}) {
+      for (int round = 0; round < 4; ++round) {
+        mesh_.points = best_;
+        entities_.project(mesh_.points);
+        const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
+        descent_.run({0.1, 1, power, 0}, targets, whole_, 20);
+        entities_.project(mesh_.points);
+        monitor_.check();
+        if (!note_if_best()) break;
+      }
+    }
+  }
+
+  FitReport report() const {
+    FitReport report;
+    const Score now = rate();
+    report.inverted = now.inverted;
+    report.min_scaled_jacobian = now.worst;
+    report.mean_scaled_jacobian = now.mean;
+    std::vector<char> touches_bad(mesh_.points.size(), 0);
+    for (const Hex& hex : mesh_.hexes) {
+      if (scaled_jacobian(mesh_.points, hex) > 0) continue;
+      for (int node : hex) touches_bad[node] = 1;
+    }
+    for (std::size_t q = 0; q < association_.quads.size(); ++q) {
+      if (std::none_of(association_.quads[q].begin(), association_.quads[q].end(), [&](int v) { return touches_bad[v]; })) continue;
+      const auto& faces = association_.patches[association_.quad_patch[q]];
+      report.bad_faces.insert(report.bad_faces.end(), faces.begin(), faces.end());
+    }
+    std::sort(report.bad_faces.begin(), report.bad_faces.end());
+    report.bad_faces.erase(std::unique(report.bad_faces.begin(), report.bad_faces.end()), report.bad_faces.end());
+    return report;
+  }
+
+  const CadModel& model_;
+  HexMesh& mesh_;
+  const Association& association_;
+  const FitOptions& options_;
+  const Monitor& monitor_;
+  HexGraph graph_;
+  Entities entities_;
+  Descent descent_;
+  Region whole_;
+  std::vector<Vec3> best_;
+  Score score_;
+};
+
+}  // namespace
+
+FitReport fit(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor) {
+  if (association.point_cad.size() != mesh.points.size()) throw StageFailed("fit", "the association has not one entry a node");
+  if (mesh.hexes.empty()) throw StageFailed("fit", "the mesh has no cells");
+  monitor.progress("fit", 0);
+  const FitReport report = Fitting(model, mesh, association, options, monitor).run();
+  monitor.progress("fit", 1);
+  return report;
+}
+
+}  // namespace polycube

@@ -1,0 +1,226 @@
+#include "fit/start.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+#include "core/hexahedron.h"
+
+namespace polycube {
+
+namespace {
+
+// Arc length along a CAD edge, from samples.
+class ArcLength {
+ public:
+  ArcLength(const CadModel& model, int edge) : range_(model.edge_range(edge)) {
+    const auto points = model.edge_samples(edge, kSamples);
+    lengths_.assign(kSamples, 0);
+    for (int i = 1; i < kSamples; ++i) lengths_[i] = lengths_[i - 1] + (points[i] - points[i - 1]).norm();
+  }
+  double total() const { return lengths_.back(); }
+  double length(double t) const {
+    const double x = std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kSamples - 1);
+    const int i = std::min(static_cast<int>(x), kSamples - 2);
+    return lengths_[i] + (x - i) * (lengths_[i + 1] - lengths_[i]);
+  }
+  double parameter(double length) const {
+    const auto it = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, length);
+    const int i = static_cast<int>(it - lengths_.begin()) - 1;
+    const double span = lengths_[i + 1] - lengths_[i];
+    const double x = i + (span > 0 ? (length - lengths_[i]) / span : 0);
+    return range_[0] + x / (kSamples - 1) * (range_[1] - range_[0]);
+  }
+
+ private:
+  static constexpr int kSamples = 257;
+  std::array<double, 2> range_;
+  std::vector<double> lengths_;
+};
+
+struct Chain {
+  int edge = 0;
+  std::vector<int> nodes;  // in order; the first again at the end of a loop without vertex
+  bool loop = false;
+};
+
+// The segments of each CAD edge joined to chains, from vertex to vertex.
+std::vector<Chain> find_chains(const Association& association) {
+  std::vector<std::array<int, 3>> halves;  // edge, node, other node
+  for (std::size_t s = 0; s < association.segments.size(); ++s) {
+    const auto [a, b] = association.segments[s];
+    halves.push_back({association.segment_edge[s], a, b});
+    halves.push_back({association.segment_edge[s], b, a});
+  }
+  std::sort(halves.begin(), halves.end());
+  std::vector<char> used(halves.size(), 0);
+  const auto take = [&](int edge, int node) {
+    auto it = std::lower_bound(halves.begin(), halves.end(), std::array{edge, node, -1});
+    for (; it != halves.end() && (*it)[0] == edge && (*it)[1] == node; ++it) {
+      if (used[it - halves.begin()]) continue;
+      used[it - halves.begin()] = 1;
+      const auto back = std::lower_bound(halves.begin(), halves.end(), std::array{edge, (*it)[2], node});
+      used[back - halves.begin()] = 1;
+      return (*it)[2];
+    }
+    return -1;
+  };
+  std::vector<Chain> chains;
+  for (const bool loops : {false, true}) {
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+      const auto [edge, node, other] = halves[i];
+      if (used[i] || (!loops && association.point_cad[node].dim != 0)) continue;
+      Chain chain{edge, {node}, loops};
+      for (int next = take(edge, node); next >= 0;) {
+        chain.nodes.push_back(next);
+        const bool ended = loops ? next == node : association.point_cad[next].dim == 0;
+        next = ended ? -1 : take(edge, next);
+      }
+      chains.push_back(std::move(chain));
+    }
+  }
+  return chains;
+}
+
+// Lengths along the curve for the nodes of a chain, by the places where they are.
+std::vector<double> spread(const std::vector<double>& gaps, double from, double to) {
+  double total = 0, least = 0;
+  for (double g : gaps) total += g;
+  least = 0.4 * total / static_cast<double>(gaps.size());
+  double sum = 0;
+  for (double g : gaps) sum += std::max(g, least);
+  std::vector<double> lengths{from};
+  for (double g : gaps) lengths.push_back(lengths.back() + (sum > 0 ? std::max(g, least) / sum : 1.0 / static_cast<double>(gaps.size())) * (to - from));
+  lengths.back() = to;
+  return lengths;
+}
+
+void place_chain(const CadModel& model, std::vector<Vec3>& points, const Chain& chain, Entities& entities) {
+  const CadEdge& edge = model.edge(chain.edge);
+  const ArcLength arc(model, chain.edge);
+  const int count = static_cast<int>(chain.nodes.size());
+  std::vector<double> gaps;
+  for (int i = 0; i + 1 < count; ++i) gaps.push_back((points[chain.nodes[i + 1]] - points[chain.nodes[i]]).norm());
+  const CadRef first = entities.cad(chain.nodes.front()), last = entities.cad(chain.nodes.back());
+
+  // Where the nodes project to, kept if they are in order and nowhere bunched.
+  std::vector<double> found(count);
+  for (int i = 0; i < count; ++i) found[i] = arc.length(model.project_to_edge(chain.edge, points[chain.nodes[i]]).t);
+
+  // Both directions are tried; the one nearer to where the nodes are wins.
+  std::vector<double> best;
+  double least = -1;
+  for (const bool forward : {true, false}) {
+    double from = forward ? 0 : arc.total(), to = arc.total() - from;
+    if (edge.vertices[0] != edge.vertices[1]) {
+      if (first.dim == 0 && first.id != edge.vertices[forward ? 0 : 1]) continue;
+      if (last.dim == 0 && last.id != edge.vertices[forward ? 1 : 0]) continue;
+    } else if (first.dim != 0) {
+      from = found[0];  // a loop without its vertex starts where its first node is
+      to = forward ? from + arc.total() : from - arc.total();
+    }
+    const auto wrap = [&](double s) { return s < 0 ? s + arc.total() : s > arc.total() ? s - arc.total() : s; };
+    const auto lengths = spread(gaps, from, to);
+    double sum = 0;
+    for (int i = 0; i < count; ++i) sum += (model.edge_point(chain.edge, arc.parameter(wrap(lengths[i]))) - points[chain.nodes[i]]).squaredNorm();
+    if (least >= 0 && sum >= least) continue;
+    least = sum;
+    best = lengths;
+    for (double& s : best) s = wrap(s);
+    // Projections of inner nodes in the right order beat proportions.
+    const double even = arc.total() / (count - 1), sign = forward ? 1 : -1;
+    if (first.dim == 0) {
+      std::vector<double> kept = found;
+      kept.front() = from;
+      kept.back() = to;
+      bool in_order = true;
+      for (int i = 0; i + 1 < count; ++i) in_order = in_order && sign * (kept[i + 1] - kept[i]) > 0.3 * std::min(even, gaps[i]);
+      if (in_order) best = kept;
+    }
+  }
+  if (best.empty()) return;
+  for (int i = 0; i < count; ++i) {
+    const int node = chain.nodes[i];
+    if (entities.dimension(node) != 1) continue;
+    const double t = arc.parameter(best[i]);
+    entities.set_edge_parameter(node, t);
+    points[node] = model.edge_point(chain.edge, t);
+  }
+}
+
+// Solves for the nodes of `dimension` so that each moves by the mean of its neighbours' displacements; others have moved already.
+void follow(std::vector<Vec3>& points, const std::vector<Vec3>& before, const std::vector<Segment>& edges, const std::vector<char>& free) {
+  std::vector<int> unknown(points.size(), -1);
+  int count = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (free[v]) unknown[v] = count++;
+  }
+  if (count == 0) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> degree(count, 0);
+  Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(count, 3);
+  for (const auto& [a, b] : edges) {
+    for (const auto& [v, w] : {Segment{a, b}, Segment{b, a}}) {
+      if (unknown[v] < 0) continue;
+      degree[unknown[v]] += 1;
+      if (unknown[w] >= 0) {
+        entries.emplace_back(unknown[v], unknown[w], -1.0);
+      } else {
+        rhs.row(unknown[v]) += (points[w] - before[w]).transpose();
+      }
+    }
+  }
+  // The shift keeps parts without any moved neighbour where they are.
+  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, degree[i] + 1e-6);
+  if (rhs.squaredNorm() == 0) return;
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(1e-3);
+  solver.setMaxIterations(200);
+  solver.compute(matrix);
+  const Eigen::MatrixX3d moved = solver.solve(rhs);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (unknown[v] >= 0) points[v] += moved.row(unknown[v]).transpose();
+  }
+}
+
+std::vector<Segment> unique_edges(std::vector<Segment> edges) {
+  for (auto& e : edges) std::sort(e.begin(), e.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+}  // namespace
+
+void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, Entities& entities, const Monitor& monitor) {
+  const std::vector<Vec3> before = mesh.points;
+  for (int v : entities.boundary()) {
+    if (entities.dimension(v) == 0) mesh.points[v] = model.vertex(entities.cad(v).id);
+  }
+  for (const Chain& chain : find_chains(association)) {
+    monitor.check();
+    place_chain(model, mesh.points, chain, entities);
+  }
+  std::vector<Segment> surface_edges, edges;
+  for (const Quad& q : association.quads) {
+    for (int k = 0; k < 4; ++k) surface_edges.push_back({q[k], q[(k + 1) % 4]});
+  }
+  std::vector<char> on_patch(mesh.points.size(), 0), inside(mesh.points.size(), 0);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    on_patch[v] = association.point_cad[v].dim == 2;
+    inside[v] = association.point_cad[v].dim == 3;
+  }
+  follow(mesh.points, before, unique_edges(std::move(surface_edges)), on_patch);
+  monitor.check();
+  entities.project(mesh.points);
+  monitor.check();
+  for (const Hex& hex : mesh.hexes) {
+    for (const auto& [c, d] : kHexEdges) edges.push_back({hex[c], hex[d]});
+  }
+  follow(mesh.points, before, unique_edges(std::move(edges)), inside);
+}
+
+}  // namespace polycube

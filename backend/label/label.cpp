@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -133,10 +134,47 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
   return labels;
 }
 
-// Connected triangles of one CAD face and one label. Pieces much smaller than their face's largest join the neighbour they share most border with.
-std::vector<int> split_regions(const Setup& s, std::vector<int> labels) {
+// Faces that got one label may still have to take two: an oblique plane half way down its slope (the hypotenuse of a rib, a side of a pyramid),
+// a bent face where its normal passes 45 degrees. Returns the half of each triangle; the search decides whether they differ.
+std::vector<int> halves(const Setup& s) {
+  const auto n = s.mesh.triangles.size();
+  std::vector<Vec3> slope(s.model.face_count() + 1, Vec3::Zero());
+  std::vector<double> low(slope.size(), std::numeric_limits<double>::infinity()), high(slope.size(), -std::numeric_limits<double>::infinity());
+  const auto along = [&](std::size_t t, int k) { return slope[s.mesh.triangle_face[t]].dot(s.frame * s.mesh.points[s.mesh.triangles[t][k]]); };
+  for (std::size_t t = 0; t < n; ++t) {
+    const int f = s.mesh.triangle_face[t];
+    if (s.model.face(f).kind != SurfaceKind::kPlane || s.normal[t].cwiseAbs().maxCoeff() > kAlignedCosine) continue;
+    if (slope[f].isZero()) {
+      int axis = 0;
+      s.normal[t].cwiseAbs().maxCoeff(&axis);
+      slope[f] = (Vec3::Unit(axis) - s.normal[t][axis] * s.normal[t]).normalized();
+    }
+    for (int k = 0; k < 3; ++k) {
+      low[f] = std::min(low[f], along(t, k));
+      high[f] = std::max(high[f], along(t, k));
+    }
+  }
+  std::vector<int> half(n, 0);
+  for (std::size_t t = 0; t < n; ++t) {
+    const int f = s.mesh.triangle_face[t];
+    if (!slope[f].isZero()) {
+      half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > (low[f] + high[f]) / 2;
+    } else if (s.whole[f] && s.model.face(f).kind != SurfaceKind::kPlane) {
+      int axis = 0;
+      s.normal[t].cwiseAbs().maxCoeff(&axis);
+      half[t] = 2 * axis + (s.normal[t][axis] < 0);
+    }
+  }
+  return half;
+}
+
+// Connected triangles of one CAD face, one label and one half. Pieces much smaller than their face's largest join the neighbour they share most
+// border with.
+std::vector<int> split_regions(const Setup& s, const std::vector<int>& labels) {
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
+  std::vector<int> kind = halves(s);
+  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t];
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {
     region.assign(n, -1);
@@ -153,7 +191,7 @@ std::vector<int> split_regions(const Setup& s, std::vector<int> labels) {
         const int t = members[id][i];
         area[id] += s.area[t];
         for (int m : neighbours[t]) {
-          if (m < 0 || region[m] >= 0 || labels[m] != labels[seed] || s.mesh.triangle_face[m] != s.mesh.triangle_face[seed]) continue;
+          if (m < 0 || region[m] >= 0 || kind[m] != kind[seed] || s.mesh.triangle_face[m] != s.mesh.triangle_face[seed]) continue;
           region[m] = id;
           members[id].push_back(m);
         }
@@ -165,16 +203,17 @@ std::vector<int> split_regions(const Setup& s, std::vector<int> labels) {
     for (std::size_t id = 0; id < members.size(); ++id) {
       const int face = s.mesh.triangle_face[members[id][0]];
       if (area[id] > 0.04 * largest[face]) continue;
-      std::array<double, 6> border{};
+      std::map<int, double> border;
       for (int t : members[id]) {
         for (int k = 0; k < 3; ++k) {
           const int m = neighbours[t][k];
           if (m < 0 || region[m] == static_cast<int>(id) || s.mesh.triangle_face[m] != face) continue;
-          border[labels[m]] += (s.mesh.points[s.mesh.triangles[t][k]] - s.mesh.points[s.mesh.triangles[t][(k + 1) % 3]]).norm();
+          border[kind[m]] += (s.mesh.points[s.mesh.triangles[t][k]] - s.mesh.points[s.mesh.triangles[t][(k + 1) % 3]]).norm();
         }
       }
-      const int best = static_cast<int>(std::max_element(border.begin(), border.end()) - border.begin());
-      for (int t : members[id]) labels[t] = best;
+      if (border.empty()) continue;
+      const int best = std::max_element(border.begin(), border.end(), [](const auto& x, const auto& y) { return x.second < y.second; })->first;
+      for (int t : members[id]) kind[t] = best;
       changed = true;
     }
     if (!changed) break;

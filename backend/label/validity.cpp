@@ -90,10 +90,12 @@ class Checker {
   Violations run() {
     check_arcs();
     check_junctions();
+    find_charts();
     check_loops();
+    check_turns();
     for (const auto& r : hit_) result_.regions.push_back(r);
     result_.score = 10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points +
-                    1.0 * result_.bad_turns;
+                    6.0 * result_.bad_turns;
     return std::move(result_);
   }
 
@@ -131,6 +133,33 @@ class Checker {
     }
   }
 
+  void find_charts() {
+    chart_.resize(g_.regions.size());
+    std::iota(chart_.begin(), chart_.end(), 0);
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (const Arc& a : g_.arcs) {
+        if (label_[a.left] != label_[a.right] || chart_[a.left] == chart_[a.right]) continue;
+        chart_[a.left] = chart_[a.right] = std::min(chart_[a.left], chart_[a.right]);
+        changed = true;
+      }
+    }
+    turns_.assign(g_.regions.size(), 0);
+    loops_.assign(g_.regions.size(), 0);
+    unknown_.assign(g_.regions.size(), 0);
+  }
+
+  // A rectilinear polygon turns left four times more than right, a hole's border right; so turns tell of a chart that is inside out.
+  void check_turns() {
+    for (std::size_t r = 0; r < g_.regions.size(); ++r) {
+      if (chart_[r] != static_cast<int>(r) || unknown_[r] || loops_[r] == 0 || turns_[r] == 4 * (2 - loops_[r])) continue;
+      ++result_.bad_turns;
+      for (std::size_t m = 0; m < g_.regions.size(); ++m) {
+        if (chart_[m] == static_cast<int>(r)) hit_.insert(static_cast<int>(m));
+      }
+    }
+  }
+
   // The border dart that follows with the same chart on the left.
   int next(int dart) const {
     const auto& darts = g_.junctions[end_of(dart)].darts;
@@ -159,6 +188,7 @@ class Checker {
       if (start_of(first) < 0) {  // a closed chain without junction
         seen[first] = 1;
         result_.poor_loops += 4;
+        unknown_[chart_[dart_left(g_, first)]] = 1;
         blame(first);
         continue;
       }
@@ -179,7 +209,10 @@ class Checker {
     if (corners.size() < 4) {
       result_.poor_loops += 4 - static_cast<int>(corners.size());
       for (int d : loop) blame(d);
-      if (corners.empty()) return;
+      if (corners.empty()) {
+        unknown_[chart_[dart_left(g_, loop.front())]] = 1;
+        return;
+      }
     }
     // The boundaries between consecutive corners, as axis directions of the polygon that the chart becomes.
     std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(corners.front()), loop.end());
@@ -206,15 +239,14 @@ class Checker {
       d[axis] = way < 0 ? -1 : 1;
       directions.push_back(d);
     }
-    if (!known || directions.size() < 4) return;
-    int turns = 0;
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-      turns += static_cast<int>(std::lround(directions[i].cross(directions[(i + 1) % directions.size()]).dot(label_vector(mine))));
+    const int chart = chart_[dart_left(g_, loop.front())];
+    ++loops_[chart];
+    if (!known || directions.size() < 4) {
+      unknown_[chart] = 1;
+      return;
     }
-    // Four left turns in all for an outer border, four right ones for a hole.
-    if (std::abs(turns) != 4) {
-      ++result_.bad_turns;
-      for (int d : loop) hit_.insert(dart_left(g_, d));
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+      turns_[chart] += static_cast<int>(std::lround(directions[i].cross(directions[(i + 1) % directions.size()]).dot(label_vector(mine))));
     }
   }
 
@@ -241,6 +273,8 @@ class Checker {
   const std::vector<int>& label_;
   double noise_;
   std::vector<char> corner_;
+  std::vector<int> chart_;                   // per region: the least region of its chart
+  std::vector<int> turns_, loops_, unknown_; // per chart
   std::set<int> hit_;
   Violations result_;
 };

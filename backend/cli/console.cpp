@@ -1,0 +1,51 @@
+#include "cli/console.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+
+namespace polycube {
+namespace {
+
+constexpr int kCancelledStatus = 3;
+volatile std::sig_atomic_t g_signals = 0;
+
+extern "C" void on_signal(int) {
+  g_signals = g_signals + 1;
+  if (g_signals > 1) _exit(kCancelledStatus);
+}
+
+}  // namespace
+
+Console::Console(Monitor& monitor, bool verbose)
+    : terminal_(isatty(STDERR_FILENO) != 0), verbose_(verbose), start_(Monitor::Clock::now()), last_(start_) {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  monitor.cancel_requested = [] { return g_signals > 0; };
+  if (terminal_) monitor.on_progress = [this](const std::string& stage, double fraction) { show(stage, fraction); };
+  if (verbose) monitor.on_log = [this](const std::string& line) { log(line); };
+}
+
+Console::~Console() { wipe(); }
+
+void Console::show(const std::string& stage, double fraction) {
+  const auto now = Monitor::Clock::now();
+  if (shown_ && now - last_ < std::chrono::milliseconds(50)) return;
+  last_ = now;
+  shown_ = true;
+  std::fprintf(stderr, "\r\033[K%s %.0f %%  %.0f s", stage.c_str(), 100 * fraction, std::chrono::duration<double>(now - start_).count());
+  std::fflush(stderr);
+}
+
+void Console::log(const std::string& line) {
+  wipe();
+  std::fprintf(stderr, "[%8.2f s] %s\n", std::chrono::duration<double>(Monitor::Clock::now() - start_).count(), line.c_str());
+}
+
+void Console::wipe() {
+  if (shown_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
+}
+
+}  // namespace polycube

@@ -1,0 +1,238 @@
+// The command line: polycube mesh | label | hex. Exit status 0: done, 1: bad arguments or input, 2: no valid result, 3: cancelled.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "cli/console.h"
+#include "cli/part.h"
+#include "core/draft.h"
+#include "core/error.h"
+#include "fem/fem.h"
+#include "pipeline/hex_map.h"
+#include "pipeline/label_part.h"
+#include "pipeline/pipeline.h"
+
+namespace polycube {
+namespace {
+
+enum Status { kDone = 0, kBadInput = 1, kFailed = 2, kStopped = 3 };
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// The options of option_table() as arguments of a command.
+class OptionArguments {
+ public:
+  explicit OptionArguments(CLI::App& command) {
+    for (const OptionSpec& option : option_table()) {
+      std::string flag = "--" + option.name;
+      std::replace(flag.begin(), flag.end(), '_', '-');
+      const std::string type = option_type(option), group = option.advanced ? "Advanced" : "Mesh";
+      Argument& argument = *arguments_.emplace_back(std::make_unique<Argument>(Argument{option.name, {}, nullptr}));
+      if (type == "bool") {
+        argument.parsed = command.add_flag(flag, option.meaning);
+      } else {
+        argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
+        if (type == "labels") argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("Face3=+X");
+        if (type != "labels") argument.parsed->type_name(type_name(option));
+      }
+      argument.parsed->group(group);
+    }
+  }
+
+  MeshOptions options() const {
+    std::vector<std::pair<std::string, std::string>> given;
+    for (const auto& argument : arguments_) {
+      if (argument->parsed->count() == 0) continue;
+      std::string text = argument->texts.empty() ? "true" : argument->texts.front();
+      for (std::size_t i = 1; i < argument->texts.size(); ++i) text += "," + argument->texts[i];
+      given.emplace_back(argument->name, text);
+    }
+    return parse_options(given);
+  }
+
+ private:
+  struct Argument {
+    std::string name;
+    std::vector<std::string> texts;
+    CLI::Option* parsed;
+  };
+
+  static std::string type_name(const OptionSpec& option) {
+    if (option.choices.empty()) return option.unit.empty() ? "NUMBER" : option.unit;
+    std::string text;
+    for (const std::string& choice : option.choices) text += (text.empty() ? "" : "|") + choice;
+    return text;
+  }
+
+  std::vector<std::unique_ptr<Argument>> arguments_;
+};
+
+void set_deadline(Monitor& monitor, const MeshOptions& options, Monitor::Clock::time_point start) {
+  if (options.time_limit <= 0) return;
+  monitor.set_deadline(start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
+}
+
+double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
+
+struct MeshCommand {
+  explicit MeshCommand(CLI::App& app)
+      : command(*app.add_subcommand("mesh", "Hexahedral mesh of a CAD solid")), arguments(command) {
+    command.add_option("part", part, "CAD solid: .step, .stp, .brep, .brp or .FCStd")->required();
+    command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
+    command.add_option("--object", object, "Object of a .FCStd document to mesh, by name or label");
+    command.add_option("--report", report, "Write a report as JSON");
+    command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
+  }
+
+  void run(Monitor& monitor, Monitor::Clock::time_point start) {
+    const MeshOptions options = arguments.options();
+    set_deadline(monitor, options, start);
+    check_output(output);
+    if (!report.empty()) check_writable(report);
+    const auto read_start = Monitor::Clock::now();
+    const CadModel model = read_part(part, object);
+    check(options, model.diagonal(), model.face_count());
+    const double read_seconds = seconds_since(read_start);
+    MeshResult result = mesh(model, options, monitor);
+    result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
+
+    const auto fem_start = Monitor::Clock::now();
+    const FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, monitor);
+    result.report.stages.push_back({"fem", seconds_since(fem_start)});
+    result.report.nodes = static_cast<int>(fem.points.size());
+    result.report.straightened_edges = fem.straightened;
+    const auto write_start = Monitor::Clock::now();
+    write(fem, output, effective_element_type(options), monitor);
+    result.report.stages.push_back({"write", seconds_since(write_start)});
+    if (!report.empty()) write_text(report, to_json(result.report));
+
+    for (const StageRecord& stage : result.report.stages) monitor.log(stage.name + ": " + std::to_string(stage.seconds) + " s");
+    for (const std::string& warning : result.report.warnings) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
+    const CadCapture& c = result.report.capture;
+    std::printf("%s: %d hexahedra, %d nodes, scaled Jacobian min %.3f mean %.3f, CAD faces %d/%d edges %d/%d vertices %d/%d, %.1f s\n", output.c_str(),
+                result.report.hexes, result.report.nodes, result.report.quality.min_scaled_jacobian, result.report.quality.mean_scaled_jacobian,
+                c.faces_captured, c.faces, c.edges_captured, c.edges, c.vertices_captured, c.vertices, seconds_since(start));
+  }
+
+  CLI::App& command;
+  OptionArguments arguments;
+  std::string part, output, object, report;
+  bool verbose = false;
+};
+
+struct LabelCommand {
+  explicit LabelCommand(CLI::App& app)
+      : command(*app.add_subcommand("label", "Labels, charts and polycuboid map of a CAD solid, to look at")), arguments(command) {
+    command.add_option("part", part, "CAD solid: .step, .stp, .brep, .brp or .FCStd")->required();
+    command.add_option("-o,--output", output, "Labelled boundary: .vtu")->required();
+    command.add_option("--object", object, "Object of a .FCStd document, by name or label");
+    command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
+  }
+
+  void run(Monitor& monitor, Monitor::Clock::time_point start) {
+    const MeshOptions options = arguments.options();
+    set_deadline(monitor, options, start);
+    if (!output.ends_with(".vtu")) throw InvalidInput(output + ": the suffix must be .vtu");
+    check_writable(output);
+    const CadModel model = read_part(part, object);
+    check(options, model.diagonal(), model.face_count());
+    const LabelledPart labelled = label_part(model, options, monitor);
+    write_vtu(output, labelled);
+    std::printf("%s: %zu tets, %zu charts, %d flipped, %.1f s\n", output.c_str(), labelled.tets.tets.size(), labelled.map.charts.size(),
+                labelled.flipped, seconds_since(start));
+  }
+
+  CLI::App& command;
+  OptionArguments arguments;
+  std::string part, output, object;
+  bool verbose = false;
+};
+
+struct HexCommand {
+  explicit HexCommand(CLI::App& app)
+      : command(*app.add_subcommand("hex", "Hexahedra of a given polycuboid map (blocks, quantization, first geometry), without CAD")) {
+    command.add_option("--tets", tets, "Tetrahedra, Medit .mesh")->required();
+    command.add_option("--labels", labels, "Labels of the tets' facets")->required();
+    command.add_option("--map", map, "Image of the tetrahedra, Medit .mesh")->required();
+    command.add_option("-o,--output", output, "Hexahedra, Medit .mesh")->required();
+    command.add_option("--scale", scale, "Edge length of the hexahedra over the mean tet edge in the map; 0: coarsest")
+        ->capture_default_str()
+        ->check(CLI::Range(0.0, 1e6));
+    command.add_option("--report", report, "Write a report as JSON");
+    command.add_option("--problem", problem, "Write the quantization problem as JSON, to compare solvers");
+    command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
+  }
+
+  void run(Monitor& monitor, Monitor::Clock::time_point start) {
+    for (const std::string* path : {&output, &report, &problem})
+      if (!path->empty()) check_writable(*path);
+    const PolycuboidInput input = read_polycuboid(tets, labels, map);
+    HexMapOptions options;
+    options.quantize.scale = scale;
+    const HexMapResult result = hex_map(input, options, monitor);
+    write_medit(output, result.hexes);
+    if (!report.empty()) write_text(report, report_json(input, result));
+    if (!problem.empty()) write_text(problem, problem_json(input, result));
+    std::printf("%s: %zu blocks, %zu hexahedra, objective %g, bound %g, %.1f s\n", output.c_str(), result.blocks.blocks.size(),
+                result.hexes.mesh.hexes.size(), result.quantization.objective, result.quantization.bound, seconds_since(start));
+  }
+
+  CLI::App& command;
+  std::string tets, labels, map, output, report, problem;
+  double scale = 1;
+  bool verbose = false;
+};
+
+int complain(const std::string& message, Status status) {
+  std::cerr << "polycube: " << one_line(message) << "\n";
+  return status;
+}
+
+int run(int argc, char** argv) {
+  const auto start = Monitor::Clock::now();
+  CLI::App app{"Hexahedral meshes of CAD solids by polycube maps", "polycube"};
+  app.set_version_flag("--version", POLYCUBE_VERSION);
+  app.require_subcommand(1);
+  MeshCommand mesh_command(app);
+  LabelCommand label_command(app);
+  HexCommand hex_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return complain(e.what(), kBadInput);
+  }
+  Monitor monitor;
+  try {
+    const Console console(monitor, mesh_command.verbose || label_command.verbose || hex_command.verbose);
+    if (mesh_command.command.parsed()) mesh_command.run(monitor, start);
+    if (label_command.command.parsed()) label_command.run(monitor, start);
+    if (hex_command.command.parsed()) hex_command.run(monitor, start);
+    return kDone;
+  } catch (const InvalidInput& e) {
+    return complain(e.what(), kBadInput);
+  } catch (const StageFailed& e) {
+    std::string entities;
+    for (const CadRef& entity : e.entities()) entities += (entities.empty() ? " (" : ", ") + name(entity);
+    return complain("stage " + e.stage() + ": " + e.what() + (entities.empty() ? "" : entities + ")"), kFailed);
+  } catch (const Cancelled& e) {
+    return complain(e.what(), kStopped);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", kFailed);
+  } catch (const std::exception& e) {
+    return complain(std::string("internal error: ") + e.what(), kFailed);
+  } catch (...) {
+    return complain("internal error", kFailed);
+  }
+}
+
+}  // namespace
+}  // namespace polycube
+
+int main(int argc, char** argv) { return polycube::run(argc, argv); }

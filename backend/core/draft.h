@@ -1,0 +1,30 @@
+// Files that appear complete or not at all.
+#pragma once
+
+#include <string>
+
+namespace polycube {
+
+/// A file beside the target that takes its name with publish(); without that it is removed.
+class Draft {
+ public:
+  explicit Draft(const std::string& target);
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+  ~Draft();
+  /// Where to write.
+  const std::string& path() const { return draft_; }
+  /// Throws std::filesystem::filesystem_error.
+  void publish();
+
+ private:
+  std::string target_, draft_;
+};
+
+/// Writes the text by way of a Draft. Throws InvalidInput naming the target.
+void write_text(const std::string& target, const std::string& text);
+
+/// Throws InvalidInput where the target's folder is missing or not writable, or the target is a folder. For a check before the work.
+void check_writable(const std::string& target);
+
+}  // namespace polycube

@@ -77,7 +77,6 @@ def run(job, progress=None, log=None, cancel=None):
         stderr=subprocess.PIPE,
         env=engine.environment(),
         text=True,
-        start_new_session=True,
     )
     stopped = threading.Event()
     watcher = _watch(child, cancel, stopped) if cancel else None
@@ -106,11 +105,13 @@ def run(job, progress=None, log=None, cancel=None):
 
 def kill_tree(pid):
     """Kills the child and the processes it started: it leads a process group of its own where the system has such groups."""
+    if pid <= 0:
+        return
     try:
         if hasattr(os, "killpg") and os.getpgid(pid) == pid:
             os.killpg(pid, signal.SIGKILL)
         else:
-            os.kill(pid, signal.SIGTERM)
+            os.kill(pid, getattr(signal, "SIGKILL", signal.SIGTERM))
     except ProcessLookupError:
         pass
 

@@ -41,11 +41,13 @@ def flatten(mesh):
 
 def run(folder):
     polycube = engine.load()
+    parent = os.getppid()
     try:
         mesh = polycube.mesh(
             brep=read(os.path.join(folder, "shape.brep")),
             progress=lambda stage, fraction: say(progress=[stage, fraction]),
             log=lambda line: say(log=line),
+            cancel=lambda: os.getppid() != parent,  # nobody waits for the mesh of a FreeCAD that is gone
             **json.loads(read(os.path.join(folder, "options.json"))),
         ).to_dict()
     except polycube.InvalidInput as error:
@@ -64,4 +66,6 @@ def run(folder):
 
 
 if __name__ == "__main__":
+    if hasattr(os, "setsid"):
+        os.setsid()  # a group of its own, so that one kill reaches the processes started from here
     sys.exit(run(sys.argv[1]))

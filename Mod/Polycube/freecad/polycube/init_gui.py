@@ -1,0 +1,58 @@
+"""FreeCAD's window loads this: the workbench, and the command in the FEM workbench's mesh menu."""
+
+import FreeCADGui
+
+from . import commands, resources
+
+
+class PolycubeWorkbench(FreeCADGui.Workbench):
+    """Hexahedral meshes; the rest of an analysis is the FEM workbench's."""
+
+    MenuText = "Polycube"
+    ToolTip = "All-hexahedral FEM meshes of CAD solids"
+    Icon = resources.icon("Polycube_Workbench")
+
+    def Initialize(self):
+        import FemGui  # registers the FEM commands
+
+        del FemGui
+        fem = ["FEM_Analysis", "FEM_MaterialSolid", "FEM_ConstraintFixed", "FEM_ConstraintForce", "FEM_ConstraintPressure", "FEM_SolverCalculixCxxtools"]
+        fem = [name for name in fem if name in FreeCADGui.listCommands()]
+        self.appendToolbar("Polycube", commands.NAMES + (["Separator"] + fem if fem else []))
+        self.appendMenu("&Polycube", commands.NAMES + (["Separator"] + fem if fem else []))
+
+    def GetClassName(self):
+        return "Gui::PythonWorkbench"
+
+
+class _FemMenu:
+    """Adds the command to the FEM workbench."""
+
+    def modifyMenuBar(self):
+        """For FreeCAD 1.x, whose workbenches take additions."""
+        return [{"append": commands.MeshFromShape.Name, "menuItem": "FEM_MeshGmshFromShape"}]
+
+    @staticmethod
+    def activated(workbench):
+        """For FreeCAD 0.20, which makes the menus anew whenever a workbench is activated."""
+        from PySide import QtGui
+
+        if workbench != "FemWorkbench":
+            return
+        window = FreeCADGui.getMainWindow()
+        for entry in window.menuBar().actions():
+            menu = entry.menu()
+            if menu and menu.objectName() == "M&esh":
+                command = commands.MeshFromShape
+                action = QtGui.QAction(QtGui.QIcon(resources.icon(command.Name)), command().GetResources()["MenuText"], menu)
+                action.setObjectName(command.Name)
+                action.triggered.connect(lambda *_: FreeCADGui.runCommand(command.Name))
+                menu.addAction(action)
+
+
+commands.register()
+FreeCADGui.addWorkbench(PolycubeWorkbench())
+if hasattr(FreeCADGui, "addWorkbenchManipulator"):
+    FreeCADGui.addWorkbenchManipulator(_FemMenu())
+else:
+    FreeCADGui.getMainWindow().workbenchActivated.connect(_FemMenu.activated)

@@ -1,0 +1,283 @@
+"""The task panel: parameters, the mesher in a child process with live log, and the quality of the mesh."""
+
+import html
+import json
+import time
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from . import api, engine, job, objects, option_table, resources, shapes
+from .errors import Cancelled, PolycubeError, StageFailed
+from .histogram import Histogram
+
+_TITLE = "Hexahedral mesh"
+
+
+class MeshPanel:
+    """Apply runs the mesher, Cancel stops it, OK is refused while it runs.
+
+    The document changes once, when the mesh is there; without a mesh object, one is made then.
+    """
+
+    _running = None  # the one panel that meshes at present: FreeCAD shows one task panel at a time
+
+    def __init__(self, part, obj=None, analysis=None):
+        self.part, self.obj = part, obj
+        self.analysis = objects.analysis_of(obj) if obj else analysis
+        self.document_name = part.Document.Name if part else obj.Document.Name
+        self.form = FreeCADGui.PySideUic.loadUi(resources.path("ui", "MeshPanel.ui"))
+        self.form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
+        self.histogram = Histogram()
+        self.form.quality_layout.insertWidget(1, self.histogram)
+        self.form.worst.itemSelectionChanged.connect(self._highlight)
+        self.timer = QtCore.QTimer()
+        self.timer.setInterval(100)
+        self.timer.timeout.connect(self._show_time)
+        self.process = self.job = None
+        self.started = 0.0
+        self.options = option_table.read(obj) if obj else {}
+        self._meshed_options = {}
+        self._show_parameters()
+        self._show_quality()
+
+    @classmethod
+    def is_meshing(cls, obj):
+        return cls._running is not None and cls._running.obj == obj
+
+    # --- what FreeCAD calls -------------------------------------------------------------------------------------------------
+
+    def getStandardButtons(self):
+        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
+
+    def clicked(self, button):
+        if button == int(QtGui.QDialogButtonBox.Apply):
+            self.apply()
+
+    def accept(self):
+        if self.process:
+            self.log("The mesher is running: wait, or stop it with Cancel.", error=True)
+            return False
+        if self.obj and self._parameters() != option_table.read(self.obj):
+            with api.transaction(self.obj.Document, "Mesh parameters"):
+                option_table.write(self.obj, self._parameters())
+        return self._close()
+
+    def reject(self):
+        if self.process:
+            self.cancel()
+            return False
+        return self._close()
+
+    # --- running the mesher -------------------------------------------------------------------------------------------------
+
+    def apply(self):
+        """Starts the mesher with the panel's parameters."""
+        if self.process:
+            self.log("The mesher is running already.", error=True)
+            return
+        self.form.log.clear()
+        self.started = time.monotonic()
+        self._meshed_options = self._parameters()
+        try:
+            if not self.part:
+                raise PolycubeError("the mesh object is not linked to a part")
+            shape = shapes.shape_of(self.part)
+            shapes.check_solid(shape)
+            self.job = job.Job(shape, self._meshed_options)
+            program, *arguments = self.job.command()
+            environment = engine.environment()
+        except (PolycubeError, ImportError, OSError) as error:
+            self._close_job()
+            self.log(str(error), error=True)
+            return
+        self.cancelled = False
+        self._out, self._err = "", ""
+        variables = QtCore.QProcessEnvironment()
+        for name, value in environment.items():
+            variables.insert(name, value)
+        self.process = QtCore.QProcess()
+        self.process.setProcessEnvironment(variables)
+        self.process.readyReadStandardOutput.connect(self._read_output)
+        self.process.readyReadStandardError.connect(self._read_error)
+        self.process.finished.connect(self._finished)
+        self.process.errorOccurred.connect(self._not_started)
+        MeshPanel._running = self
+        self.form.parameters.setEnabled(False)
+        self.log("Meshing {} ...".format(self.part.Label))
+        self.timer.start()
+        self.process.start(program, arguments)
+
+    def cancel(self):
+        """Kills the mesher; the panel stays."""
+        if self.process:
+            self.cancelled = True
+            job.kill_tree(int(self.process.processId()))
+
+    def _read_output(self):
+        self._out += bytes(self.process.readAllStandardOutput()).decode("utf-8", "replace")
+        *lines, self._out = self._out.split("\n")
+        for line in lines:
+            kind, value = job.Job.parse(line)
+            if kind == "progress":
+                self.form.progress.setValue(round(100 * value[1]))
+                self.form.progress.setFormat(value[0] + " %p%")
+            else:
+                self.log(value)
+
+    def _read_error(self):
+        self._err = (self._err + bytes(self.process.readAllStandardError()).decode("utf-8", "replace"))[-4000:]
+
+    def _not_started(self, error):
+        if error == QtCore.QProcess.FailedToStart:
+            self._finished(-1, None)
+
+    def _finished(self, status, exit_status):
+        if not self.process:
+            return
+        if exit_status == QtCore.QProcess.CrashExit:
+            status = -1
+        self._read_output()
+        self._read_error()
+        process, self.process = self.process, None
+        process.deleteLater()
+        MeshPanel._running = None
+        self.timer.stop()
+        self._show_time()
+        self.form.parameters.setEnabled(True)
+        try:
+            if self.cancelled:
+                raise Cancelled("cancelled")
+            self._take(self.job.finish(status, self._err))
+        except StageFailed as error:
+            where = " at " + ", ".join(error.entities) if error.entities else ""
+            self.log("{}: {}{}".format(error.stage or "failed", error, where), error=True)
+            self._select(error.entities)
+        except PolycubeError as error:
+            self.log(str(error), error=True)
+        finally:
+            self._close_job()
+        self.form.progress.setFormat("%p%")
+
+    def _take(self, result):
+        """Puts the mesh into the document, in one undo step."""
+        if self.document_name not in FreeCAD.listDocuments():
+            return
+        document = FreeCAD.getDocument(self.document_name)
+        QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+        try:
+            with api.transaction(document, _TITLE if self.obj else "Hexahedral mesh from shape"):
+                if not self.obj:
+                    self.obj = objects.make(document, self.part)
+                    if self.analysis:
+                        self.analysis.addObject(self.obj)
+                warnings = objects.set_mesh(self.obj, result, self._meshed_options)
+        finally:
+            QtGui.QApplication.restoreOverrideCursor()
+        self.form.progress.setValue(100)
+        for line in warnings:
+            self.log("Warning: " + line, error=True)
+        self.log("{} cells, {} nodes.".format(len(result.hexes), len(result.nodes)))
+        self.obj.ViewObject.show()
+        self.part.ViewObject.hide()
+        self._show_quality()
+
+    def _close_job(self):
+        if self.job:
+            self.job.close()
+            self.job = None
+
+    def _close(self):
+        self._clear_highlight()
+        gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None
+        if gui_document and gui_document.getInEdit():
+            gui_document.resetEdit()
+        else:
+            FreeCADGui.Control.closeDialog()
+        return True
+
+    # --- what the panel shows -----------------------------------------------------------------------------------------------
+
+    def log(self, text, error=False):
+        stamp = "{:.1f}: ".format(time.monotonic() - self.started) if self.started else ""
+        line = html.escape(stamp + text)
+        self.form.log.appendHtml('<span style="color:#c02020">{}</span>'.format(line) if error else line)
+        (FreeCAD.Console.PrintError if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
+
+    def _show_time(self):
+        self.form.time.setText("{:.1f} s".format(time.monotonic() - self.started))
+
+    def _show_parameters(self):
+        self.form.part.setText(self.part.Label if self.part else "none")
+        self.form.element_size.setProperty("unit", "mm")
+        self.form.element_size.setProperty("rawValue", self.options.get("size", 0.0))
+        self.form.hexes.setValue(self.options.get("hexes", 0))
+        self.form.order.setCurrentIndex(self.options.get("order", 2) - 1)
+        if self.part and not self.part.Shape.isNull():
+            automatic = self.part.Shape.BoundBox.DiagonalLength / 30
+            length = FreeCAD.Units.Quantity(automatic, FreeCAD.Units.Length).UserString
+            self.form.size_hint.setText("0 is automatic: {}".format(length))
+
+    def _parameters(self):
+        """The options as the panel shows them, without defaults; the advanced ones come from the object's properties."""
+        options = dict(option_table.read(self.obj) if self.obj else self.options)
+        shown = {
+            "size": float(self.form.element_size.property("rawValue")),
+            "hexes": self.form.hexes.value(),
+            "order": self.form.order.currentIndex() + 1,
+        }
+        defaults = {option["name"]: option["default"] for option in option_table.table()}
+        for name, value in shown.items():
+            options.pop(name, None)
+            if value != defaults[name]:
+                options[name] = value
+        return options
+
+    def _show_quality(self):
+        if not self.obj or not self.obj.Report:
+            return
+        report = json.loads(self.obj.Report)
+        quality, capture = report["quality"], report["capture"]
+        self.histogram.set_counts(quality["histogram"])
+        self.form.summary.setText(
+            "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nCAD faces {}/{}, edges {}/{}, vertices {}/{}".format(
+                self.obj.Hexahedra,
+                self.obj.NodeCount,
+                quality["min_scaled_jacobian"],
+                quality["mean_scaled_jacobian"],
+                capture["faces_captured"],
+                capture["faces"],
+                capture["edges_captured"],
+                capture["edges"],
+                capture["vertices_captured"],
+                capture["vertices"],
+            )
+        )
+        worst = report["worst"]
+        self.form.worst.setRowCount(len(worst))
+        for row, cell in enumerate(worst):
+            place = ", ".join("Face{}".format(face) for face in cell["faces"]) or "inside"
+            for column, text in enumerate((str(cell["hex"] + 1), "{:.3f}".format(cell["scaled_jacobian"]), place)):
+                self.form.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
+        self.form.worst.resizeColumnsToContents()
+
+    def _highlight(self):
+        """Marks the nodes of the cell selected in the list."""
+        rows = self.form.worst.selectionModel().selectedRows()
+        if not rows or not self.obj:
+            return
+        cell = int(self.form.worst.item(rows[0].row(), 0).text())
+        self.obj.ViewObject.HighlightedNodes = list(self.obj.FemMesh.getElementNodes(cell))
+
+    def _clear_highlight(self):
+        if self.obj and self.form.worst.selectionModel().hasSelection():
+            self.obj.ViewObject.HighlightedNodes = []
+
+    def _select(self, entities):
+        """Shows the CAD entities at fault in the 3D view."""
+        if entities:
+            self.part.ViewObject.show()
+            FreeCADGui.Selection.clearSelection()
+            for name in entities:
+                FreeCADGui.Selection.addSelection(self.part, name)

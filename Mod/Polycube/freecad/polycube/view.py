@@ -1,0 +1,76 @@
+"""What the tree and the mouse do with a mesh object."""
+
+import FreeCADGui
+from PySide import QtGui
+
+from . import objects, resources
+
+_ICONS = {objects.EMPTY: "Polycube_MeshEmpty", objects.CURRENT: "Polycube_MeshFromShape", objects.OUTDATED: "Polycube_MeshOutOfDate"}
+
+
+class PolycubeMeshView:
+    """View provider of the mesh object."""
+
+    def __init__(self, view):
+        view.Proxy = self
+
+    def attach(self, view):
+        self.Object = view.Object
+
+    def getIcon(self):
+        return resources.icon(_ICONS.get(getattr(self.Object, "MeshState", None), "Polycube_MeshFromShape"))
+
+    def updateData(self, obj, name):
+        if name == "MeshState":
+            obj.ViewObject.signalChangeIcon()
+
+    def doubleClicked(self, view):
+        import FemGui
+
+        document = FreeCADGui.getDocument(view.Object.Document)
+        if document.getInEdit() or FreeCADGui.Control.activeDialog():
+            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Task panel", "Close the open task panel first.")
+            return True
+        analysis = objects.analysis_of(view.Object)
+        if analysis:
+            FemGui.setActiveAnalysis(analysis)
+        document.setEdit(view.Object.Name)
+        return True
+
+    def setEdit(self, view, mode=0):
+        from .task_panel import MeshPanel
+
+        if mode != 0:
+            return False
+        view.show()
+        FreeCADGui.Control.showDialog(MeshPanel(objects.part_of(view.Object), view.Object))
+        return True
+
+    def unsetEdit(self, view, mode=0):
+        FreeCADGui.Control.closeDialog()
+        return True
+
+    def onDelete(self, view, names):
+        """Refuses while the mesher runs; warns where an analysis would lose its only mesh."""
+        from .task_panel import MeshPanel
+
+        window = FreeCADGui.getMainWindow()
+        if MeshPanel.is_meshing(view.Object):
+            QtGui.QMessageBox.critical(window, "Hexahedral mesh", "The mesher is running for this object. Cancel it first.")
+            return False
+        analysis = objects.analysis_of(view.Object)
+        if not analysis or not view.Object.FemMesh.VolumeCount:
+            return True
+        question = "{} is the mesh of {}. Delete it?".format(view.Object.Label, analysis.Label)
+        buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
+        return QtGui.QMessageBox.warning(window, "Hexahedral mesh", question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    # FreeCAD 0.20's names for dumps and loads
+    __getstate__ = dumps
+    __setstate__ = loads

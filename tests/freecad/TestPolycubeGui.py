@@ -1,0 +1,232 @@
+"""Workbench, command and task panel in a real window; run by gui.sh."""
+
+import os
+import time
+import unittest
+
+import FemGui
+import FreeCAD
+import FreeCADGui
+import ObjectsFem
+import Part
+from PySide import QtCore, QtGui
+
+from freecad.polycube import commands, objects, task_panel
+
+OUT = os.environ["POLYCUBE_GUI_OUT"]
+
+
+def process_events(seconds=0.2):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        QtGui.QApplication.processEvents(QtCore.QEventLoop.AllEvents, 20)
+
+
+def wait_until(condition, seconds=240):
+    end = time.monotonic() + seconds
+    while not condition() and time.monotonic() < end:
+        process_events(0.05)
+    return condition()
+
+
+def picture(name):
+    process_events(0.5)
+    QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name + ".png"))
+
+
+class GuiTest(unittest.TestCase):
+    def setUp(self):
+        FreeCADGui.activateWorkbench("PolycubeWorkbench")
+        FreeCADGui.getMainWindow().showMaximized()
+        self.document = FreeCAD.newDocument()
+        self.document.UndoMode = 1
+        self.box = self.document.addObject("Part::Box", "Block")
+        self.box.Length, self.box.Width, self.box.Height = 60, 40, 20
+        self.document.recompute()
+        self.document.clearUndos()
+        FreeCADGui.activeDocument().activeView().viewIsometric()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+
+    def tearDown(self):
+        panel = task_panel.MeshPanel._running
+        if panel:
+            panel.cancel()
+            wait_until(lambda: not panel.process, 10)
+        FreeCADGui.Control.closeDialog()
+        FreeCADGui.Selection.clearSelection()
+        FreeCAD.closeDocument(self.document.Name)
+        process_events()
+
+    def open_panel(self, part):
+        """Runs the command on the part; returns the panel (FreeCAD does not hand it out, so it is caught on its way)."""
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(part)
+        panels = []
+        original = task_panel.MeshPanel.__init__
+
+        def catch(panel, *arguments, **named):
+            panels.append(panel)
+            original(panel, *arguments, **named)
+
+        task_panel.MeshPanel.__init__ = catch
+        try:
+            FreeCADGui.runCommand(commands.MeshFromShape.Name)
+        finally:
+            task_panel.MeshPanel.__init__ = original
+        process_events()
+        self.assertEqual(len(panels), 1)
+        return panels[0]
+
+    def press(self, name):
+        """Presses a button of the task panel."""
+        wanted = getattr(QtGui.QDialogButtonBox, name)
+        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+            button = box.button(wanted)
+            if button and button.isVisible():
+                button.click()
+                process_events(0.1)
+                return
+        self.fail("no button " + name)
+
+
+class Workbench(GuiTest):
+    def test_is_there_with_its_command(self):
+        self.assertIn("PolycubeWorkbench", FreeCADGui.listWorkbenches())
+        self.assertIn(commands.MeshFromShape.Name, FreeCADGui.listCommands())
+        menus = [action.text().replace("&", "") for action in FreeCADGui.getMainWindow().menuBar().actions()]
+        self.assertIn("Polycube", menus)
+
+    def test_fem_workbench_offers_the_command(self):
+        FreeCADGui.activateWorkbench("FemWorkbench")
+        process_events()
+        bar = FreeCADGui.getMainWindow().menuBar()
+        self.assertTrue(bar.findChildren(QtGui.QAction, commands.MeshFromShape.Name))
+
+    def test_command_needs_a_selected_part(self):
+        FreeCADGui.Selection.clearSelection()
+        self.assertFalse(commands.MeshFromShape().IsActive())
+        FreeCADGui.Selection.addSelection(self.box)
+        self.assertTrue(commands.MeshFromShape().IsActive())
+
+
+class Panel(GuiTest):
+    def test_cancel_leaves_the_document_alone(self):
+        self.open_panel(self.box)
+        self.press("Cancel")
+        self.assertIsNone(FreeCADGui.Control.activeDialog() or None)
+        self.assertEqual(self.document.Objects, [self.box])
+        self.assertEqual(list(self.document.UndoNames), [])
+
+    def test_apply_meshes_in_one_undo_step(self):
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        FemGui.setActiveAnalysis(analysis)
+        self.document.clearUndos()
+        panel = self.open_panel(self.box)
+        panel.form.element_size.setProperty("rawValue", 5.0)
+        picture("panel-before")
+        self.press("Apply")
+        self.assertIsNotNone(panel.process)
+        self.press("Ok")
+        self.assertTrue(FreeCADGui.Control.activeDialog(), "OK must be refused while the mesher runs")
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertIsNotNone(panel.obj, panel.form.log.toPlainText())
+        self.assertEqual(panel.obj.FemMesh.HexaCount, panel.obj.Hexahedra)
+        self.assertIn(panel.obj, analysis.Group)
+        self.assertEqual(panel.obj.CharacteristicLengthMax.Value, 5)
+        self.assertIn("cells", panel.form.summary.text())
+        self.assertGreater(sum(panel.histogram.counts), 0)
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+        panel.form.worst.selectRow(0)
+        picture("panel-after")
+        self.press("Ok")
+        process_events()
+        self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
+        name = panel.obj.Name
+        self.document.undo()
+        self.assertIsNone(self.document.getObject(name))
+
+    def test_cancel_kills_the_mesher(self):
+        panel = self.open_panel(self.box)
+        panel.form.element_size.setProperty("rawValue", 0.4)
+        self.press("Apply")
+        process_events(0.3)
+        pid = int(panel.process.processId())
+        folder = panel.job.folder
+        self.press("Cancel")
+        self.assertTrue(wait_until(lambda: not panel.process, 10))
+        self.assertFalse(os.path.exists("/proc/{}/status".format(pid)))
+        self.assertFalse(os.path.exists(folder))
+        self.assertTrue(FreeCADGui.Control.activeDialog(), "the panel stays for another try")
+        self.assertIn("cancelled", panel.form.log.toPlainText())
+        self.assertEqual(self.document.Objects, [self.box])
+        self.press("Cancel")
+        self.assertEqual(list(self.document.UndoNames), [])
+
+    def test_a_bad_size_is_said_in_the_log(self):
+        panel = self.open_panel(self.box)
+        panel.form.element_size.setProperty("rawValue", 1e5)
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: not panel.process, 30))
+        self.assertIn("size", panel.form.log.toPlainText())
+        picture("panel-error")
+        self.assertEqual(self.document.Objects, [self.box])
+
+    def test_double_click_edits_and_the_icon_follows_the_state(self):
+        from freecad import polycube
+
+        obj = polycube.create_fem_mesh(self.box, size=10)
+        current = obj.ViewObject.Proxy.getIcon()
+        self.box.Length = 80
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        self.assertNotEqual(obj.ViewObject.Proxy.getIcon(), current)
+        obj.ViewObject.Proxy.doubleClicked(obj.ViewObject)
+        process_events()
+        self.assertTrue(FreeCADGui.Control.activeDialog())
+        picture("panel-edit")
+        cells = obj.Hexahedra
+        self.document.clearUndos()
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: not task_panel.MeshPanel._running))
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        self.assertNotEqual(obj.Hexahedra, cells)
+        self.press("Ok")
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+        self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
+
+    def test_ok_keeps_parameters_without_meshing(self):
+        from freecad import polycube
+
+        obj = polycube.create_fem_mesh(self.box, size=10)
+        cells = obj.FemMesh.HexaCount
+        obj.ViewObject.Proxy.doubleClicked(obj.ViewObject)
+        process_events()
+        spin = next(widget for widget in FreeCADGui.getMainWindow().findChildren(QtGui.QSpinBox) if widget.objectName() == "hexes")
+        spin.setValue(500)
+        self.press("Ok")
+        self.assertEqual(obj.Hexes, 500)
+        self.assertEqual(obj.FemMesh.HexaCount, cells)
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+
+class RefusedShapes(GuiTest):
+    def test_two_solids_open_a_message_and_no_panel(self):
+        two = self.document.addObject("Part::Feature", "Two")
+        two.Shape = Part.makeCompound([Part.makeBox(1, 1, 1), Part.makeBox(1, 1, 1, FreeCAD.Vector(3, 0, 0))])
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(two)
+        texts = []
+
+        def close():
+            box = QtGui.QApplication.activeModalWidget()
+            if isinstance(box, QtGui.QMessageBox):
+                texts.append(box.text())
+                box.close()
+            else:
+                QtCore.QTimer.singleShot(100, close)
+
+        QtCore.QTimer.singleShot(100, close)
+        FreeCADGui.runCommand(commands.MeshFromShape.Name)
+        self.assertEqual(len(texts), 1)
+        self.assertIn("2 solids", texts[0])
+        self.assertFalse(FreeCADGui.Control.activeDialog())

@@ -31,7 +31,14 @@ set(OCCT TKernel TKMath TKG2d TKG3d TKGeomBase TKGeomAlgo TKBRep TKTopAlgo TKPri
 
 polycube_stage(core)
 polycube_stage(cad USES core LINKS ${OCCT} SYSTEM ${OpenCASCADE_INCLUDE_DIR})
-polycube_stage(tet USES core cad LINKS gmsh)
+# Gmsh runs in a process of its own: only the worker links it.
+polycube_stage(tet USES core cad LINKS ${CMAKE_DL_LIBS})
+add_executable(polycube-tet ${PROJECT_SOURCE_DIR}/backend/tet/worker/main.cpp ${PROJECT_SOURCE_DIR}/backend/tet/protocol.cpp)
+target_include_directories(polycube-tet PRIVATE ${PROJECT_SOURCE_DIR}/backend)
+target_compile_options(polycube-tet PRIVATE ${POLYCUBE_WARNINGS})
+target_link_libraries(polycube-tet PRIVATE Eigen3::Eigen gmsh)
+target_compile_definitions(polycube_tet PRIVATE POLYCUBE_TET_WORKER_BUILT="$<TARGET_FILE:polycube-tet>")
+add_dependencies(polycube_tet polycube-tet)
 polycube_stage(label USES core cad)
 polycube_stage(deform USES core)
 polycube_stage(blocks USES core)

@@ -1,0 +1,198 @@
+#include "tet/classify.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+// Nodes of Gmsh lie on the CAD up to the CAD's own tolerance; the figure only has to tell neighbouring entities apart.
+constexpr double kFar = 1e-3;   // of the diagonal
+constexpr int kProbes = 6;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Spreads the choice of at most kProbes over the whole list.
+template <class T>
+std::vector<T> thin(const std::vector<T>& all) {
+  if (all.size() <= kProbes) return all;
+  std::vector<T> some;
+  for (std::size_t k = 0; k < kProbes; ++k) some.push_back(all[k * (all.size() - 1) / (kProbes - 1)]);
+  return some;
+}
+
+/// Points well inside each Gmsh entity of one dimension, by tag.
+std::map<int, std::vector<Vec3>> probes(const RawMesh& raw, int dim) {
+  std::map<int, std::vector<Vec3>> nodes, centres;
+  for (std::size_t i = 0; i < raw.points.size(); ++i)
+    if (raw.point_entity[i].dim == dim) nodes[raw.point_entity[i].id].push_back(raw.points[i]);
+  if (dim == 1)
+    for (std::size_t i = 0; i < raw.segments.size(); ++i)
+      centres[raw.segment_tag[i]].push_back((raw.points[at(raw.segments[i][0])] + raw.points[at(raw.segments[i][1])]) / 2);
+  if (dim == 2)
+    for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+      const Triangle& t = raw.triangles[i];
+      centres[raw.triangle_tag[i]].push_back((raw.points[at(t[0])] + raw.points[at(t[1])] + raw.points[at(t[2])]) / 3);
+    }
+  std::map<int, std::vector<Vec3>> result;
+  for (auto& [tag, points] : centres) result[tag] = thin(nodes.count(tag) ? nodes[tag] : points);
+  if (dim == 0)
+    for (auto& [tag, points] : nodes) result[tag] = points;
+  return result;
+}
+
+double distance(const CadModel& model, int dim, int id, const Vec3& p) {
+  if (dim == 0) return (model.vertex(id) - p).norm();
+  return dim == 1 ? model.project_to_edge(id, p).distance : model.project_to_face(id, p).distance;
+}
+
+double mean_distance(const CadModel& model, int dim, int id, const std::vector<Vec3>& points, double give_up) {
+  double sum = 0;
+  for (const Vec3& p : points) {
+    sum += distance(model, dim, id, p);
+    if (sum > give_up * static_cast<double>(points.size())) return std::numeric_limits<double>::infinity();
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+/// Gmsh tag -> CAD number. Equal numbers are expected and looked at first; nothing is taken without the distances agreeing.
+std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
+  const int count = dim == 0 ? model.vertex_count() : dim == 1 ? model.edge_count() : model.face_count();
+  std::map<int, int> result;
+  std::set<int> taken;
+  for (const auto& [tag, points] : probes(raw, dim)) {
+    const double near = 1e-6 * model.diagonal();
+    int best = 0;
+    double least = kFar * model.diagonal();
+    const auto consider = [&](int id) {
+      if (dim == 1 && model.edge(id).degenerate) return;
+      const double d = mean_distance(model, dim, id, points, least);
+      if (d < least) least = d, best = id;
+    };
+    if (tag <= count) consider(tag);
+    for (int id = 1; id <= count && !(best == tag && least <= near); ++id)
+      if (id != tag) consider(id);
+    if (best == 0) throw Unusable("Gmsh's " + name({dim, tag}) + " lies on no CAD entity");
+    if (!taken.insert(best).second) throw Unusable("two of Gmsh's entities lie on " + name({dim, best}), {{dim, best}});
+    result[tag] = best;
+  }
+  return result;
+}
+
+template <std::size_t N>
+std::array<int, N> sorted(std::array<int, N> key) {
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+}  // namespace
+
+double signed_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a) / 6; }
+
+std::vector<Triangle> boundary_facets(const std::vector<Tet>& tets) {
+  static constexpr std::array<std::array<std::size_t, 3>, 4> kFacets{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+  struct Facet {
+    Triangle key, outward;
+    std::size_t order;
+  };
+  std::vector<Facet> facets;
+  facets.reserve(4 * tets.size());
+  for (const Tet& tet : tets)
+    for (const auto& f : kFacets) {
+      const Triangle facet{tet[f[0]], tet[f[1]], tet[f[2]]};
+      facets.push_back({sorted(facet), facet, facets.size()});
+    }
+  std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return std::tie(a.key, a.order) < std::tie(b.key, b.order); });
+  std::vector<Facet> single;
+  for (std::size_t i = 0; i < facets.size();) {
+    std::size_t j = i + 1;
+    while (j < facets.size() && facets[j].key == facets[i].key) ++j;
+    if (j - i > 2) throw Unusable("more than two tetrahedra share a facet");
+    if (j - i == 1) single.push_back(facets[i]);
+    i = j;
+  }
+  std::sort(single.begin(), single.end(), [](const Facet& a, const Facet& b) { return a.order < b.order; });
+  std::vector<Triangle> result;
+  for (const Facet& facet : single) result.push_back(facet.outward);
+  return result;
+}
+
+TetMesh classify(const RawMesh& raw, const CadModel& model) {
+  const std::array<std::map<int, int>, 3> cad{match(raw, model, 0), match(raw, model, 1), match(raw, model, 2)};
+  TetMesh mesh;
+  std::vector<int> index(raw.points.size(), -1);
+  std::vector<char> used(raw.points.size(), 0);
+  for (const Tet& tet : raw.tets)
+    for (const int v : tet) used[at(v)] = 1;
+  for (std::size_t i = 0; i < raw.points.size(); ++i) {
+    if (!used[i]) continue;
+    index[i] = static_cast<int>(mesh.points.size());
+    mesh.points.push_back(raw.points[i]);
+    const CadRef& entity = raw.point_entity[i];
+    mesh.point_cad.push_back(entity.dim == 3 ? CadRef{3, 1} : CadRef{entity.dim, cad[at(entity.dim)].at(entity.id)});
+  }
+  for (const Tet& tet : raw.tets) {
+    Tet t;
+    for (std::size_t k = 0; k < 4; ++k) t[k] = index[at(tet[k])];
+    const double volume = signed_volume(mesh.points[at(t[0])], mesh.points[at(t[1])], mesh.points[at(t[2])], mesh.points[at(t[3])]);
+    if (volume == 0) throw Unusable("a tetrahedron has no volume");
+    if (volume < 0) std::swap(t[2], t[3]);
+    mesh.tets.push_back(t);
+  }
+  std::map<Triangle, int> face_of;
+  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+    Triangle t = raw.triangles[i];
+    for (int& v : t) v = index[at(v)];
+    face_of[sorted(t)] = cad[2].at(raw.triangle_tag[i]);
+  }
+  mesh.triangles = boundary_facets(mesh.tets);
+  std::set<Segment> boundary_edges;
+  for (const Triangle& t : mesh.triangles) {
+    const auto found = face_of.find(sorted(t));
+    if (found == face_of.end()) throw Unusable("a boundary facet of the tetrahedra lies on no CAD face");
+    mesh.triangle_face.push_back(found->second);
+    for (std::size_t k = 0; k < 3; ++k) boundary_edges.insert(sorted(Segment{t[k], t[(k + 1) % 3]}));
+  }
+  if (mesh.triangles.size() != raw.triangles.size()) throw Unusable("some surface triangles bound no tetrahedron");
+  for (std::size_t i = 0; i < raw.segments.size(); ++i) {
+    const Segment s{index[at(raw.segments[i][0])], index[at(raw.segments[i][1])]};
+    const int edge = cad[1].at(raw.segment_tag[i]);
+    if (!boundary_edges.count(sorted(s))) throw Unusable("a piece of " + name({1, edge}) + " is no edge of the boundary", {{1, edge}});
+    mesh.segments.push_back(s);
+    mesh.segment_edge.push_back(edge);
+  }
+  return mesh;
+}
+
+void check_complete(const TetMesh& mesh, const CadModel& model) {
+  std::vector<int> vertices(at(model.vertex_count()) + 1), edges(at(model.edge_count()) + 1), faces(at(model.face_count()) + 1);
+  for (const CadRef& cad : mesh.point_cad)
+    if (cad.dim == 0) ++vertices[at(cad.id)];
+  for (const int edge : mesh.segment_edge) ++edges[at(edge)];
+  for (const int face : mesh.triangle_face) ++faces[at(face)];
+  std::vector<CadRef> missing;
+  for (int v = 1; v <= model.vertex_count(); ++v)
+    if (vertices[at(v)] != 1) missing.push_back({0, v});
+  for (int e = 1; e <= model.edge_count(); ++e)
+    if (edges[at(e)] == 0 && !model.edge(e).degenerate) missing.push_back({1, e});
+  for (int f = 1; f <= model.face_count(); ++f)
+    if (faces[at(f)] == 0) missing.push_back({2, f});
+  if (!missing.empty()) throw Unusable("the tetrahedra leave out " + name(missing.front()), missing);
+  std::set<Segment> boundary_edges;
+  std::set<int> boundary_points;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      boundary_edges.insert(sorted(Segment{t[k], t[(k + 1) % 3]}));
+      boundary_points.insert(t[k]);
+    }
+  const auto euler = static_cast<int>(boundary_points.size()) - static_cast<int>(boundary_edges.size()) + static_cast<int>(mesh.triangles.size());
+  if (euler != model.euler_characteristic()) throw Unusable("the boundary of the tetrahedra has another topology than the CAD");
+}
+
+}  // namespace polycube

@@ -47,12 +47,12 @@ double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::ar
   const double chi = det >= 0 ? (det + root) / 2 : energy.eps * energy.eps / (2 * (root - det));
   if (chi < 1e-200) return kInfinity;
   const double slope = chi / root;  // d chi / d det
-  const double trace = j[0].squaredNorm() + j[1].squaredNorm() + j[2].squaredNorm();
-  const double power = std::cbrt(chi * chi);
-  double value = energy.shape * (trace / (3 * power) + (det * det + 1) / (2 * chi));
-  double by_det = energy.shape * (-2.0 / 9.0 * trace / (power * chi) * slope + det / chi - (det * det + 1) / (2 * chi * chi) * slope);
+  const double mean = std::sqrt((j[0].squaredNorm() + j[1].squaredNorm() + j[2].squaredNorm()) / 3);
+  const double spread = mean * mean * mean / chi, volume = (det * det + 1) / (2 * chi);
+  double value = energy.shape * (spread + volume);
+  double by_det = energy.shape * (det / chi - (spread + volume) / chi * slope);
   std::array<double, 3> by_edge;
-  by_edge.fill(energy.shape * 2 / (3 * power));
+  by_edge.fill(energy.shape * mean / chi);
   if (energy.right > 0) {
     const std::array<double, 3> squared{j[0].squaredNorm(), j[1].squaredNorm(), j[2].squaredNorm()};
     const double inverse = std::sqrt(squared[0] * squared[1] * squared[2]) / chi;

@@ -19,8 +19,9 @@ HexGraph build_hex_graph(const HexMesh& mesh);
 std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int smoothing_steps);
 
 /// What is minimised. With J the matrix of a corner's three edges over the wanted lengths, D = det J and chi(D) = (D + sqrt(eps^2 + D^2)) / 2:
-///   shape * (tr(J^T J) / (3 chi^(2/3)) + (D^2 + 1) / (2 chi))  +  right * (|J_1| |J_2| |J_3| / chi)^power
-/// summed over the eight corners of each hex (Garanzha et al. 2021; the second term is the power of the inverse scaled Jacobian).
+///   shape * ((tr(J^T J) / 3)^(3/2) / chi + (D^2 + 1) / (2 chi))  +  right * (|J_1| |J_2| |J_3| / chi)^power
+/// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the last term is
+/// a power of the inverse scaled Jacobian.
 struct Energy {
   double shape = 1;
   double right = 0;

@@ -15,6 +15,8 @@ class Entities {
   void project(std::vector<Vec3>& points, const std::vector<int>* nodes = nullptr);
   /// One node, from place p.
   Vec3 project(int node, const Vec3& p);
+  /// How far p is from the node's entity, found without seed.
+  double distance(int node, const Vec3& p) const;
   /// Tells the seed of an edge node before its first projection.
   void set_edge_parameter(int node, double t) { seeds_[node] = Vec2(t, 0); seeded_[node] = 1; }
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/quality.h"
 #include "fit/energy.h"
+#include "fit/parallel.h"
 #include "fit/start.h"
 
 namespace polycube {
@@ -15,13 +16,13 @@ namespace {
 
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
-// How good a mesh is: first no inverted cells, then the worst cell up to the target, then the mean.
+// How good a mesh is: first no inverted cells, then the worst cell up to a goal, then the mean.
 struct Score {
   int inverted = 0;
   double worst = 0, mean = 0;
-  bool better_than(const Score& other, double target) const {
+  bool better_than(const Score& other, double goal) const {
     if (inverted != other.inverted) return inverted < other.inverted;
-    const double mine = std::min(worst, target), theirs = std::min(other.worst, target);
+    const double mine = std::min(worst, goal), theirs = std::min(other.worst, goal);
     return mine != theirs ? mine > theirs : mean > other.mean;
   }
 };
@@ -41,11 +42,18 @@ class Fitting {
     best_ = mesh_.points;
     score_ = rate();
     monitor_.progress("fit", 0.15);
-    untangle();
+    untangle(whole_, 20);
+    for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
+      restore();
+      untangle(around(0, layers), 50);
+    }
     monitor_.progress("fit", 0.5);
-    square_up();
-    mesh_.points = best_;
-    entities_.project(mesh_.points);
+    if (score_.inverted == 0) {
+      square_up();
+      monitor_.progress("fit", 0.8);
+      raise_worst();
+    }
+    restore();
     return report();
   }
 
@@ -67,26 +75,65 @@ class Fitting {
   // Notes the mesh if it is the best so far.
   bool note_if_best() {
     const Score now = rate();
-    if (!now.better_than(score_, options_.target_scaled_jacobian)) return false;
+    if (!now.better_than(score_, goal())) return false;
     score_ = now;
     best_ = mesh_.points;
     return true;
   }
 
+  void restore() {
+    mesh_.points = best_;
+    entities_.project(mesh_.points);
+  }
+
+  // The cells with a scaled Jacobian of at most `limit` and some layers round them; nodes on the rim stay.
+  Region around(double limit, int layers) const {
+    std::vector<char> in(mesh_.hexes.size(), 0);
+    std::vector<int> front;
+    for (int h : whole_.hexes) {
+      if (scaled_jacobian(mesh_.points, mesh_.hexes[h]) > limit) continue;
+      in[h] = 1;
+      front.push_back(h);
+    }
+    Region region;
+    for (int layer = 0; layer < layers; ++layer) {
+      std::vector<int> next;
+      for (int h : front) {
+        for (int v : mesh_.hexes[h]) {
+          for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
+            const int other = graph_.corners[k] / 8;
+            if (!in[other]) next.push_back(other);
+            in[other] = 1;
+          }
+        }
+      }
+      front.swap(next);
+    }
+    for (int h : whole_.hexes) {
+      if (in[h]) region.hexes.push_back(h);
+    }
+    region.nodes = movable(region.hexes);
+    std::erase_if(region.nodes, [&](int v) {
+      return std::any_of(graph_.corners.begin() + graph_.first[v], graph_.corners.begin() + graph_.first[v + 1],
+                         [&](int corner) { return !in[corner / 8]; });
+    });
+    return region;
+  }
+
   // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).
-  void untangle() {
+  void untangle(const Region& region, int iterations) {
     Energy energy;
     for (int round = 0; round < options_.max_rounds; ++round) {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-      const double least = descent_.min_determinant(targets, whole_);
-      if (round == 0 || least <= 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * std::min(least, 0.0) * std::min(least, 0.0)));
-      const DescentResult result = descent_.run(energy, targets, whole_, 20);
+      const double least = std::min(descent_.min_determinant(targets, region), 0.0);
+      if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
+      const DescentResult result = descent_.run(energy, targets, region, iterations);
       entities_.project(mesh_.points);
       const bool improved = note_if_best();
       monitor_.progress("fit", 0.15 + 0.35 * round / options_.max_rounds);
-      const double reached = descent_.min_determinant(targets, whole_);
+      const double reached = descent_.min_determinant(targets, region);
       const double gain = 1 - result.energy / result.start_energy;
-      if (reached > 0 && (gain < 2e-3 || (!improved && round > 5))) break;
+      if (reached > 0 && (gain < 5e-3 || (!improved && round > 5))) break;
       const double rate_of_fall = std::max(gain, 0.1);
       const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
       const double wanted = (1 - rate_of_fall) * chi;
@@ -94,21 +141,37 @@ class Fitting {
     }
   }
 
-  // Powers of the inverse scaled Jacobian over the whole mesh, each from the best mesh so far.
+  // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one.
+  bool square_up(const Region& region, int power, int iterations, double* gain = nullptr) {
+    restore();
+    const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
+    const DescentResult result = descent_.run({0.1, 1, power, 0}, targets, region, iterations);
+    if (gain) *gain = 1 - result.energy / result.start_energy;
+    entities_.project(mesh_.points);
+    monitor_.check();
+    return note_if_best();
+  }
+
+  // The whole mesh towards right angles.
   void square_up() {
-    if (score_.inverted > 0) return;
-    for (int power : {2, 4, 8}) {
-      for (int round = 0; round < 4; ++round) {
-        mesh_.points = best_;
-        entities_.project(mesh_.points);
-        const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-        descent_.run({0.1, 1, power, 0}, targets, whole_, 20);
-        entities_.project(mesh_.points);
-        monitor_.check();
-        if (!note_if_best()) break;
-      }
+    double gain = 1;
+    for (int round = 0; round < 5 && gain > 1e-3; ++round) {
+      if (!square_up(whole_, 2, 20, &gain)) break;
     }
   }
+
+  // The worst cells with their surroundings, by higher and higher powers.
+  void raise_worst() {
+    int failures = 0;
+    for (int round = 0; round < options_.max_rounds && failures < 4 && score_.worst < goal(); ++round) {
+      restore();
+      const Region region = around(std::min(goal(), score_.worst + 0.15), 2 + failures);
+      failures = square_up(region, 4 << std::min(failures, 2), 30) ? 0 : failures + 1;
+    }
+  }
+
+  // Cells are worked on until they are somewhat better than asked for.
+  double goal() const { return 1.5 * options_.target_scaled_jacobian; }
 
   FitReport report() const {
     FitReport report;
@@ -116,6 +179,11 @@ class Fitting {
     report.inverted = now.inverted;
     report.min_scaled_jacobian = now.worst;
     report.mean_scaled_jacobian = now.mean;
+    std::vector<double> off(entities_.boundary().size());
+    for_chunks(static_cast<int>(off.size()), 64, options_.threads, [&](int, int first, int last) {
+      for (int i = first; i < last; ++i) off[i] = entities_.distance(entities_.boundary()[i], mesh_.points[entities_.boundary()[i]]);
+    });
+    if (!off.empty()) report.max_off = *std::max_element(off.begin(), off.end());
     std::vector<char> touches_bad(mesh_.points.size(), 0);
     for (const Hex& hex : mesh_.hexes) {
       if (scaled_jacobian(mesh_.points, hex) > 0) continue;

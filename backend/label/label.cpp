@@ -19,6 +19,10 @@ namespace {
 constexpr double kOneLabelCosine = 0.57;
 // A planar face within about 15 degrees of an axis has the label of that axis.
 constexpr double kAlignedCosine = 0.966;
+// Planes further off the axes than about 5 degrees may be halved.
+constexpr double kLevelCosine = 0.996;
+// Normals within about 10 degrees of their mean: as good as a plane.
+constexpr double kFlatCosine = 0.985;
 constexpr double kSharpBend = std::numbers::pi / 6;
 
 struct Setup {
@@ -29,6 +33,7 @@ struct Setup {
   std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
   std::vector<double> area;
   std::vector<char> whole;    // per CAD face: one label for all of it
+  std::vector<char> flat;     // per CAD face: it hardly bends
   double scale;               // mm
 };
 
@@ -67,7 +72,7 @@ double change_weight(double angle, bool same_face) {
 }
 
 Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options) {
-  Setup s{model, mesh, options, options.frame_given ? options.frame : find_frame(model), {}, {}, {}, 0.02 * model.diagonal()};
+  Setup s{model, mesh, options, options.frame_given ? options.frame : find_frame(model), {}, {}, {}, {}, 0.02 * model.diagonal()};
   const auto n = mesh.triangles.size();
   s.normal.resize(n);
   s.area.resize(n);
@@ -79,9 +84,12 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     mean[mesh.triangle_face[t]] += w;
   }
   s.whole.assign(model.face_count() + 1, 1);
+  s.flat.assign(model.face_count() + 1, 1);
   for (std::size_t t = 0; t < n; ++t) {
     const int f = mesh.triangle_face[t];
-    if (s.normal[t].dot(mean[f].normalized()) < kOneLabelCosine) s.whole[f] = 0;
+    const double cosine = s.normal[t].dot(mean[f].normalized());
+    if (cosine < kOneLabelCosine) s.whole[f] = 0;
+    if (cosine < kFlatCosine) s.flat[f] = 0;
   }
   prefer_labels_across(s);
   return s;
@@ -143,7 +151,7 @@ std::vector<int> halves(const Setup& s) {
   const auto along = [&](std::size_t t, int k) { return slope[s.mesh.triangle_face[t]].dot(s.frame * s.mesh.points[s.mesh.triangles[t][k]]); };
   for (std::size_t t = 0; t < n; ++t) {
     const int f = s.mesh.triangle_face[t];
-    if (s.model.face(f).kind != SurfaceKind::kPlane || s.normal[t].cwiseAbs().maxCoeff() > kAlignedCosine) continue;
+    if (!s.flat[f] || s.normal[t].cwiseAbs().maxCoeff() > kLevelCosine) continue;
     if (slope[f].isZero()) {
       int axis = 0;
       s.normal[t].cwiseAbs().maxCoeff(&axis);
@@ -159,7 +167,7 @@ std::vector<int> halves(const Setup& s) {
     const int f = s.mesh.triangle_face[t];
     if (!slope[f].isZero()) {
       half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > (low[f] + high[f]) / 2;
-    } else if (s.whole[f] && s.model.face(f).kind != SurfaceKind::kPlane) {
+    } else if (s.whole[f] && !s.flat[f]) {
       int axis = 0;
       s.normal[t].cwiseAbs().maxCoeff(&axis);
       half[t] = 2 * axis + (s.normal[t][axis] < 0);

@@ -48,7 +48,8 @@ std::vector<int> chart_of(int region, const std::vector<std::set<int>>& near, co
   return chart;
 }
 
-std::vector<Move> moves_near(const std::vector<int>& regions, const std::vector<std::set<int>>& near, const std::vector<int>& label) {
+std::vector<Move> moves_near(const RegionGraph& g, const Violations& violations, const std::vector<std::set<int>>& near, const std::vector<int>& label) {
+  const std::vector<int>& regions = violations.regions;
   std::set<int> around(regions.begin(), regions.end());
   for (int r : regions) around.insert(near[r].begin(), near[r].end());
   std::set<std::pair<std::vector<int>, int>> unique;
@@ -66,6 +67,12 @@ std::vector<Move> moves_near(const std::vector<int>& regions, const std::vector<
         if (l != label[r] && l != label[n]) unique.insert({{r, n}, l});
       }
     }
+  }
+  // The tip of a pyramid becomes flat when all that meets there takes one label.
+  for (int c : violations.corners) {
+    std::set<int> star;
+    for (int d : g.junctions[c].darts) star.insert(dart_left(g, d));
+    for (int l = 0; l < 6; ++l) unique.insert({{star.begin(), star.end()}, l});
   }
   std::vector<Move> moves;
   for (const auto& [set, l] : unique) moves.push_back({set, l});
@@ -88,7 +95,7 @@ std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& point
     monitor.check();
     const Move* best = nullptr;
     double best_cost = current * (1 - 1e-12) - 1e-9;
-    const std::vector<Move> moves = moves_near(violations.regions, near, label);
+    const std::vector<Move> moves = moves_near(graph, violations, near, label);
     for (const Move& m : moves) {
       if (std::any_of(m.regions.begin(), m.regions.end(), [&](int r) { return graph.regions[r].data[m.label] >= kForbidden; })) continue;
       std::vector<int> next = label;

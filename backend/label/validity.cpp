@@ -129,6 +129,7 @@ class Checker {
       corner_[j] = 1;
       if (is_polycube_corner(around)) continue;
       ++result_.bad_corners;
+      result_.corners.push_back(static_cast<int>(j));
       for (int d : g_.junctions[j].darts) blame(d);
     }
   }
@@ -149,11 +150,13 @@ class Checker {
     unknown_.assign(g_.regions.size(), 0);
   }
 
-  // A rectilinear polygon turns left four times more than right, a hole's border right; so turns tell of a chart that is inside out.
+  // A rectilinear polygon turns left four times more than right, a hole's border right; so turns tell of a chart that is inside out, and of one
+  // without any border.
   void check_turns() {
     for (std::size_t r = 0; r < g_.regions.size(); ++r) {
-      if (chart_[r] != static_cast<int>(r) || unknown_[r] || loops_[r] == 0 || turns_[r] == 4 * (2 - loops_[r])) continue;
+      if (chart_[r] != static_cast<int>(r) || unknown_[r] || (loops_[r] > 0 && turns_[r] == 4 * (2 - loops_[r]))) continue;
       ++result_.bad_turns;
+      if (loops_[r] == 0 && !unknown_[r]) result_.poor_loops += 6;  // the whole surface is one chart: it lacks the borders of a cube's six
       for (std::size_t m = 0; m < g_.regions.size(); ++m) {
         if (chart_[m] == static_cast<int>(r)) hit_.insert(static_cast<int>(m));
       }

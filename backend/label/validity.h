@@ -13,6 +13,7 @@ struct Violations {
   int bad_turns = 0;         ///< chart borders that do not close as a rectilinear polygon
   double score = 0;          ///< weighted sum
   std::vector<int> regions;  ///< regions beside a violation, ascending
+  std::vector<int> corners;  ///< junctions that are bad corners, ascending
 
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };

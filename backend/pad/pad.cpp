@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "pad/rings.h"
 #include "pad/sheet.h"
 #include "pad/surface.h"
 
@@ -29,7 +30,9 @@ PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& as
   monitor.progress("pad", 0.1);
   PadReport counts;
   counts.surface_quads = pad_surface(model, padded, monitor);
-  monitor.progress("pad", 0.6);
+  monitor.progress("pad", 0.4);
+  counts.rings = insert_rings(model, padded, monitor);
+  monitor.progress("pad", 0.9);
   counts.added_hexes = static_cast<int>(padded.mesh.hexes.size() - mesh.hexes.size());
   const auto faults = check(padded.mesh, padded.association);
   if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);

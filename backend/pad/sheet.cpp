@@ -213,21 +213,20 @@ void Opening::find_moved() {
   moved_segment_.assign(association_.segments.size(), 0);
   segment_hex_.assign(association_.segments.size(), -1);
   for (int s = 0; s < static_cast<int>(association_.segments.size()); ++s) {
-    const int a = std::min(association_.segments[s][0], association_.segments[s][1]);
-    const int b = std::max(association_.segments[s][0], association_.segments[s][1]);
-    const auto it = std::lower_bound(edges.begin(), edges.end(), std::array{a, b},
-                                     [](const BoundaryEdge& e, const std::array<int, 2>& key) { return std::array{e.a, e.b} < key; });
-    if (it == edges.end() || it->a != a || it->b != b) continue;
-    if (!quad_moves(it->quads[0]) || !quad_moves(it->quads[1])) continue;
+    const auto [a, b] = association_.segments[s];
+    const int found = find_edge(edges, a, b);
+    if (found < 0) continue;
+    const auto& quads = edges[found].quads;
+    if (!quad_moves(quads[0]) || !quad_moves(quads[1])) continue;
     bool whole = true;
-    for (int side = topology_.quad_side[it->quads[0]]; side >= 0;) {
+    for (int side = topology_.quad_side[quads[0]]; side >= 0;) {
       const int hex = side / 6;
       whole = whole && cut_.inside[hex];
       side = topology_.mate[6 * hex + other_face(mesh_.hexes[hex], side % 6, a, b)];
     }
     if (!whole) continue;
     moved_segment_[s] = 1;
-    segment_hex_[s] = topology_.quad_side[it->quads[0]] / 6;
+    segment_hex_[s] = topology_.quad_side[quads[0]] / 6;
     for (int node : association_.segments[s]) {
       const int copy = copy_at(segment_hex_[s], node);
       if (copy >= 0) copies_[copy].segments.push_back(s);

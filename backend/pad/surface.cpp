@@ -144,37 +144,6 @@ std::vector<char> quads_of(const RegionGraph& graph, const std::vector<char>& ch
 
 }  // namespace
 
-double angle_cost(int cells, double angle) {
-  const double each = angle / cells, widest = 150 * kPi / 180;
-  if (each >= widest) return 1000 * each / widest;
-  return 1 / std::sin(std::max(each, 0.01)) - 1;
-}
-
-std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,
-                                    const std::vector<BoundaryEdge>& edges) {
-  std::vector<double> angles(edges.size(), kPi);
-  const auto local_angle = [&](int id, const Vec3& p) {
-    const CadEdge& edge = model.edge(id);
-    const double mean = (edge.min_angle + edge.max_angle) / 2;
-    if (edge.max_angle - edge.min_angle < kPi / 18 || edge.seam) return mean;
-    const Vec3 on = model.project_to_edge(id, p).point;
-    std::array<Vec3, 2> normals;
-    for (int k = 0; k < 2; ++k) normals[k] = model.face_normal(edge.faces[k], model.project_to_face(edge.faces[k], on).uv);
-    const double turn = std::acos(std::clamp(normals[0].dot(normals[1]), -1.0, 1.0));
-    const auto beyond = [&](double angle) { return std::max({edge.min_angle - angle, angle - edge.max_angle, 0.0}); };
-    return beyond(kPi - turn) <= beyond(kPi + turn) ? kPi - turn : kPi + turn;
-  };
-  for (std::size_t s = 0; s < association.segments.size(); ++s) {
-    const int a = std::min(association.segments[s][0], association.segments[s][1]);
-    const int b = std::max(association.segments[s][0], association.segments[s][1]);
-    const auto it = std::lower_bound(edges.begin(), edges.end(), std::array{a, b},
-                                     [](const BoundaryEdge& e, const std::array<int, 2>& key) { return std::array{e.a, e.b} < key; });
-    if (it == edges.end() || it->a != a || it->b != b) continue;
-    angles[it - edges.begin()] = local_angle(association.segment_edge[s], (mesh.points[a] + mesh.points[b]) / 2);
-  }
-  return angles;
-}
-
 std::vector<char> choose_surface(const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges,
                                  const std::vector<double>& angles, const Monitor& monitor) {
   const RegionGraph graph = build_regions(association, edges, angles);

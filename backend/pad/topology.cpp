@@ -97,8 +97,9 @@ std::vector<BoundaryEdge> boundary_edges(const HexMesh& mesh, const std::vector<
   std::sort(halves.begin(), halves.end());
   std::vector<BoundaryEdge> edges;
   edges.reserve(halves.size() / 2);
-  for (std::size_t i = 0; i + 1 < halves.size(); i += 2) {
+  for (std::size_t i = 0; i + 1 < halves.size(); ++i) {
     const auto [a, b, q] = halves[i];
+    if (halves[i + 1][0] != a || halves[i + 1][1] != b) continue;
     BoundaryEdge edge{a, b, {q, halves[i + 1][2]}, 0};
     for (int side = topology.quad_side[q]; side >= 0;) {
       ++edge.hexes;
@@ -106,8 +107,16 @@ std::vector<BoundaryEdge> boundary_edges(const HexMesh& mesh, const std::vector<
       side = topology.mate[6 * hex + other_face(mesh.hexes[hex], side % 6, a, b)];
     }
     edges.push_back(edge);
+    ++i;
   }
   return edges;
+}
+
+int find_edge(const std::vector<BoundaryEdge>& edges, int a, int b) {
+  const std::array wanted{std::min(a, b), std::max(a, b)};
+  const auto it =
+      std::lower_bound(edges.begin(), edges.end(), wanted, [](const BoundaryEdge& e, const std::array<int, 2>& key) { return std::array{e.a, e.b} < key; });
+  return it != edges.end() && it->a == wanted[0] && it->b == wanted[1] ? static_cast<int>(it - edges.begin()) : -1;
 }
 
 }  // namespace polycube

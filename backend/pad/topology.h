@@ -28,7 +28,9 @@ struct BoundaryEdge {
   int hexes;                      ///< number of hexes round it
 };
 
-/// All edges of the boundary, sorted by (a, b). The boundary must be manifold.
+/// The edges between two listed quads, sorted by (a, b).
 std::vector<BoundaryEdge> boundary_edges(const HexMesh& mesh, const std::vector<Quad>& quads, const HexTopology& topology);
+/// Index of the edge between two nodes, in any order; -1 if there is none.
+int find_edge(const std::vector<BoundaryEdge>& edges, int a, int b);
 
 }  // namespace polycube

@@ -217,4 +217,12 @@ inline Grid boss_grid(int n = 4) {
       });
 }
 
+/// Box 4 x 4 x 1 whose top face is split by a circle of radius r round its middle; the grid does not follow the circle.
+inline Grid imprint_grid(int n = 16, double r = 1.2) {
+  const TopoDS_Shape disk = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(2, 2, 0.5), gp_Dir(0, 0, 1)), r, 0.5).Shape();
+  const TopoDS_Shape shape = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeBox(4, 4, 1).Shape(), disk).Shape();
+  const double h = 4.0 / n;
+  return make_grid(shape, {n, n, n / 4}, everywhere, [=](const Vec3& x) -> Vec3 { return h * x; });
+}
+
 }  // namespace polycube::testing

@@ -1,0 +1,132 @@
+#include "pad/angles.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace polycube {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+double dihedral_angle(const CadModel& model, int id, const Vec3& p) {
+  const CadEdge& edge = model.edge(id);
+  const double mean = (edge.min_angle + edge.max_angle) / 2;
+  if (edge.max_angle - edge.min_angle < kPi / 18 || edge.seam) return mean;
+  const Vec3 on = model.project_to_edge(id, p).point;
+  std::array<Vec3, 2> normals;
+  for (int k = 0; k < 2; ++k) normals[k] = model.face_normal(edge.faces[k], model.project_to_face(edge.faces[k], on).uv);
+  const double turn = std::acos(std::clamp(normals[0].dot(normals[1]), -1.0, 1.0));
+  const auto beyond = [&](double angle) { return std::max({edge.min_angle - angle, angle - edge.max_angle, 0.0}); };
+  return beyond(kPi - turn) <= beyond(kPi + turn) ? kPi - turn : kPi + turn;
+}
+
+// Unit direction in which CAD edge `id` leaves CAD vertex `vertex`; `towards` tells the two ends of a closed edge apart.
+Vec3 leaving_direction(const CadModel& model, int id, int vertex, const Vec3& towards) {
+  const CadEdge& edge = model.edge(id);
+  const auto [begin, end] = model.edge_range(id);
+  bool from_start = edge.vertices[0] == vertex;
+  if (from_start && edge.vertices[1] == vertex) {
+    const double t = model.project_to_edge(id, towards).t;
+    from_start = t - begin <= end - t;
+  }
+  return from_start ? model.edge_tangent(id, begin) : Vec3(-model.edge_tangent(id, end));
+}
+
+double corner_angle(const CadModel& model, const HexMesh& mesh, const Association& association, const Sector& sector, int first_edge,
+                    int last_edge) {
+  const int vertex = association.point_cad[sector.node].id;
+  const Vec3 from = leaving_direction(model, first_edge, vertex, mesh.points[sector.first]);
+  const Vec3 to = leaving_direction(model, last_edge, vertex, mesh.points[sector.last]);
+  const auto& faces = association.patches[sector.patch];
+  int face = faces[0];
+  for (int f : model.edge(first_edge).faces) {
+    if (std::find(faces.begin(), faces.end(), f) != faces.end()) face = f;
+  }
+  const Vec3 normal = model.face_normal(face, model.project_to_face(face, model.vertex(vertex)).uv);
+  const double angle = std::atan2(normal.dot(from.cross(to)), from.dot(to));
+  // Edges that leave in one direction bound a cusp, or a full turn.
+  if (std::abs(angle) < 1e-3) return sector.quads > 2 ? 2 * kPi : 1e-3;
+  return angle > 0 ? angle : angle + 2 * kPi;
+}
+
+}  // namespace
+
+double angle_cost(int cells, double angle) {
+  const double each = angle / cells, widest = 150 * kPi / 180;
+  if (each >= widest) return 1000 * each / widest;
+  return 1 / std::sin(std::max(each, 0.01)) - 1;
+}
+
+std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,
+                                    const std::vector<BoundaryEdge>& edges) {
+  std::vector<double> angles(edges.size(), kPi);
+  for (std::size_t s = 0; s < association.segments.size(); ++s) {
+    const auto [a, b] = association.segments[s];
+    const int e = find_edge(edges, a, b);
+    if (e >= 0) angles[e] = dihedral_angle(model, association.segment_edge[s], (mesh.points[a] + mesh.points[b]) / 2);
+  }
+  return angles;
+}
+
+std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& wanted) {
+  // Corners of quads: node, neighbour where the corner begins, neighbour where it ends (counter-clockwise), quad.
+  std::vector<std::array<int, 4>> corners;
+  for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
+    const Quad& quad = association.quads[q];
+    for (int k = 0; k < 4; ++k) {
+      if (wanted[quad[k]]) corners.push_back({quad[k], quad[(k + 1) % 4], quad[(k + 3) % 4], q});
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  std::vector<std::array<int, 3>> ends;  // node, neighbour along a CAD edge, edge
+  for (std::size_t s = 0; s < association.segments.size(); ++s) {
+    const auto [a, b] = association.segments[s];
+    if (wanted[a]) ends.push_back({a, b, association.segment_edge[s]});
+    if (wanted[b]) ends.push_back({b, a, association.segment_edge[s]});
+  }
+  std::sort(ends.begin(), ends.end());
+  const auto cad_edge = [&](int node, int neighbour) {
+    const auto it = std::lower_bound(ends.begin(), ends.end(), std::array{node, neighbour, -1});
+    return it != ends.end() && (*it)[0] == node && (*it)[1] == neighbour ? (*it)[2] : 0;
+  };
+  std::vector<Sector> sectors;
+  for (std::size_t i = 0; i < corners.size();) {
+    std::size_t j = i;
+    while (j < corners.size() && corners[j][0] == corners[i][0]) ++j;
+    const int node = corners[i][0];
+    const auto beginning_at = [&](int neighbour) {
+      return std::find_if(corners.begin() + static_cast<long>(i), corners.begin() + static_cast<long>(j), [&](const auto& c) { return c[1] == neighbour; });
+    };
+    const auto none = corners.begin() + static_cast<long>(j);
+    bool complete = true, has_edge = false;
+    for (std::size_t k = i; k < j; ++k) {
+      complete = complete && beginning_at(corners[k][2]) != none;
+      has_edge = has_edge || cad_edge(node, corners[k][1]) > 0;
+    }
+    if (complete && !has_edge) {
+      sectors.push_back({node, association.quad_patch[corners[i][3]], -1, -1, static_cast<int>(j - i), 2 * kPi});
+    }
+    for (std::size_t k = i; complete && k < j; ++k) {
+      const int first_edge = cad_edge(node, corners[k][1]);
+      if (first_edge == 0) continue;
+      Sector sector{node, association.quad_patch[corners[k][3]], corners[k][1], corners[k][2], 1, kPi};
+      while (cad_edge(node, sector.last) == 0) {
+        sector.last = (*beginning_at(sector.last))[2];
+        ++sector.quads;
+      }
+      if (sector.first == sector.last) {
+        sector.angle = 2 * kPi;
+      } else if (association.point_cad[node].dim == 0) {
+        sector.angle = corner_angle(model, mesh, association, sector, first_edge, cad_edge(node, sector.last));
+      }
+      sectors.push_back(sector);
+    }
+    i = j;
+  }
+  return sectors;
+}
+
+}  // namespace polycube

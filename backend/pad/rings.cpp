@@ -1,0 +1,364 @@
+#include "pad/rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "core/hexahedron.h"
+#include "pad/angles.h"
+#include "pad/sheet.h"
+
+namespace polycube {
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kBadSector = 0.9;       // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
+constexpr double kInnerWeight = 0.3;     // of edges inside, which have room to give way
+constexpr double kHexPrice = 0.02;
+constexpr double kLeastGain = 0.3;
+constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
+constexpr int kMaxSheets = 400;
+
+// A part of a patch's border: nodes in order with the patch on the left, and whether the last leads to the first.
+struct Stretch {
+  std::vector<int> nodes;
+  bool closed = false;
+  std::vector<char> bad;  // per node
+};
+
+// A mesh cut out round some hexes, with everything that touches their nodes.
+struct Part {
+  HexMesh mesh;
+  Association association;
+  std::vector<char> inside;   // per hex of the part
+  std::vector<char> near;     // per node of the part: on an inside hex
+  std::vector<int> node_of;   // per node of the whole mesh, -1 if not in the part
+  std::vector<int> quad_of;   // per quad of the part: quad of the whole mesh
+};
+
+// What stays the same while candidates are compared.
+struct Whole {
+  const CadModel& model;
+  const PaddedMesh& padded;
+  HexTopology topology;
+  std::vector<std::vector<int>> node_quads;
+  std::vector<std::vector<int>> node_segments;
+
+  Whole(const CadModel& cad, const PaddedMesh& mesh) : model(cad), padded(mesh), topology(build_topology(mesh.mesh, mesh.association.quads)) {
+    node_quads.resize(mesh.mesh.points.size());
+    node_segments.resize(mesh.mesh.points.size());
+    for (int q = 0; q < static_cast<int>(mesh.association.quads.size()); ++q) {
+      for (int node : mesh.association.quads[q]) node_quads[node].push_back(q);
+    }
+    for (int s = 0; s < static_cast<int>(mesh.association.segments.size()); ++s) {
+      for (int node : mesh.association.segments[s]) node_segments[node].push_back(s);
+    }
+  }
+};
+
+struct Candidate {
+  std::set<int> inside;     // hexes
+  std::set<int> surface;    // quads
+  double gain = 0;
+};
+
+Part cut_out(const Whole& whole, const std::set<int>& inside) {
+  const HexMesh& mesh = whole.padded.mesh;
+  const Association& a = whole.padded.association;
+  std::set<int> near, hexes, quads, segments;
+  for (int h : inside) near.insert(mesh.hexes[h].begin(), mesh.hexes[h].end());
+  for (int v : near) {
+    hexes.insert(whole.topology.node_hexes.begin() + whole.topology.node_first[v], whole.topology.node_hexes.begin() + whole.topology.node_first[v + 1]);
+  }
+  Part part;
+  part.association.patches = a.patches;
+  part.node_of.assign(mesh.points.size(), -1);
+  for (int h : hexes) {
+    Hex hex;
+    for (int c = 0; c < 8; ++c) {
+      const int v = mesh.hexes[h][c];
+      if (part.node_of[v] < 0) {
+        part.node_of[v] = static_cast<int>(part.mesh.points.size());
+        part.mesh.points.push_back(mesh.points[v]);
+        part.association.point_cad.push_back(a.point_cad[v]);
+        part.near.push_back(near.count(v) > 0);
+        quads.insert(whole.node_quads[v].begin(), whole.node_quads[v].end());
+        segments.insert(whole.node_segments[v].begin(), whole.node_segments[v].end());
+      }
+      hex[c] = part.node_of[v];
+    }
+    part.mesh.hexes.push_back(hex);
+    part.inside.push_back(inside.count(h) > 0);
+  }
+  for (int q : quads) {
+    if (hexes.count(whole.topology.quad_side[q] / 6) == 0) continue;
+    Quad quad = a.quads[q];
+    for (int& v : quad) v = part.node_of[v];
+    part.association.quads.push_back(quad);
+    part.association.quad_patch.push_back(a.quad_patch[q]);
+    part.quad_of.push_back(q);
+  }
+  for (int s : segments) {
+    const Segment segment{part.node_of[a.segments[s][0]], part.node_of[a.segments[s][1]]};
+    if (segment[0] < 0 || segment[1] < 0) continue;
+    part.association.segments.push_back(segment);
+    part.association.segment_edge.push_back(a.segment_edge[s]);
+  }
+  return part;
+}
+
+// Sum of angle costs at the edges that touch a near node and in the sectors at near nodes.
+double total_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& near) {
+  const HexTopology topology = build_topology(mesh, association.quads);
+  const auto boundary = boundary_edges(mesh, association.quads, topology);
+  const auto angles = dihedral_angles(model, mesh, association, boundary);
+  double cost = 0;
+  for (std::size_t e = 0; e < boundary.size(); ++e) {
+    if (near[boundary[e].a] || near[boundary[e].b]) cost += angle_cost(boundary[e].hexes, angles[e]);
+  }
+  std::vector<std::array<int, 2>> edges;
+  for (const Hex& hex : mesh.hexes) {
+    for (const auto& [c, d] : kHexEdges) {
+      if (near[hex[c]] || near[hex[d]]) edges.push_back({std::min(hex[c], hex[d]), std::max(hex[c], hex[d])});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0; i < edges.size();) {
+    std::size_t j = i;
+    while (j < edges.size() && edges[j] == edges[i]) ++j;
+    if (find_edge(boundary, edges[i][0], edges[i][1]) < 0) cost += kInnerWeight * angle_cost(static_cast<int>(j - i), 2 * kPi);
+    i = j;
+  }
+  for (const Sector& s : find_sectors(model, mesh, association, near)) cost += angle_cost(s.quads, s.angle);
+  return cost;
+}
+
+// The sheet round a stretch through the hexes under `band`, quads of the patch.
+Candidate make_candidate(const Whole& whole, int patch, const Stretch& stretch, const std::vector<int>& band) {
+  const HexMesh& mesh = whole.padded.mesh;
+  const Association& a = whole.padded.association;
+  Candidate candidate;
+  const std::set<int> in_band(band.begin(), band.end());
+  for (int q : band) {
+    candidate.inside.insert(whole.topology.quad_side[q] / 6);
+    // Round an edge between two quads of the band the hexes between theirs come along.
+    for (int k = 0; k < 4; ++k) {
+      const int x = a.quads[q][k], y = a.quads[q][(k + 1) % 4];
+      std::vector<int> between;
+      int side = whole.topology.quad_side[q];
+      while (side >= 0) {
+        between.push_back(side / 6);
+        side = whole.topology.mate[6 * (side / 6) + other_face(mesh.hexes[side / 6], side % 6, x, y)];
+      }
+      if (in_band.count(-1 - side) > 0) candidate.inside.insert(between.begin(), between.end());
+    }
+  }
+  // Where a wedge at the stretch is inside as a whole, the sheet runs between it and the quad on the wedge's other side.
+  const int count = static_cast<int>(stretch.nodes.size());
+  for (int i = 0; i + (stretch.closed ? 0 : 1) < count; ++i) {
+    const int x = stretch.nodes[i], y = stretch.nodes[(i + 1) % count];
+    for (int q : whole.node_quads[x]) {
+      if (a.quad_patch[q] != patch || in_band.count(q) == 0) continue;
+      const Quad& quad = a.quads[q];
+      const auto at = std::find(quad.begin(), quad.end(), x) - quad.begin();
+      if (quad[(at + 1) % 4] != y) continue;
+      int side = whole.topology.quad_side[q];
+      bool all_inside = true;
+      while (side >= 0) {
+        all_inside = all_inside && candidate.inside.count(side / 6) > 0;
+        side = whole.topology.mate[6 * (side / 6) + other_face(mesh.hexes[side / 6], side % 6, x, y)];
+      }
+      if (all_inside) candidate.surface.insert(-1 - side);
+    }
+  }
+  return candidate;
+}
+
+// Fills in the gain; false if the sheet cannot be opened. Takes in more hexes of the patch where that makes it possible.
+bool rate(const Whole& whole, int patch, Candidate& candidate) {
+  constexpr int kRepairs = 5;
+  for (int attempt = 0; attempt < kRepairs; ++attempt) {
+    Part part = cut_out(whole, candidate.inside);
+    SheetCut cut{part.inside, std::vector<char>(part.quad_of.size(), 0)};
+    for (std::size_t q = 0; q < part.quad_of.size(); ++q) cut.surface[q] = candidate.surface.count(part.quad_of[q]) > 0;
+    const auto obstacles = sheet_obstacles(part.mesh, part.association, cut);
+    if (obstacles.empty()) {
+      candidate.gain = total_cost(whole.model, part.mesh, part.association, part.near);
+      const int added = insert_sheet(part.mesh, part.association, cut);
+      part.near.resize(part.mesh.points.size(), 1);
+      candidate.gain -= total_cost(whole.model, part.mesh, part.association, part.near) + kHexPrice * added;
+      return true;
+    }
+    const std::size_t before = candidate.inside.size();
+    for (int v = 0; v < static_cast<int>(whole.padded.mesh.points.size()); ++v) {
+      if (part.node_of[v] < 0 || !std::binary_search(obstacles.begin(), obstacles.end(), part.node_of[v])) continue;
+      for (int q : whole.node_quads[v]) {
+        if (whole.padded.association.quad_patch[q] == patch) candidate.inside.insert(whole.topology.quad_side[q] / 6);
+      }
+    }
+    if (candidate.inside.size() == before) return false;
+  }
+  return false;
+}
+
+class Border {
+ public:
+  explicit Border(const std::vector<Sector>& sectors) : sectors_(sectors) {
+    for (int i = 0; i < static_cast<int>(sectors.size()); ++i) {
+      if (sectors[i].first < 0) continue;
+      by_next_.push_back({sectors[i].patch, sectors[i].node, sectors[i].first, i});
+      by_previous_.push_back({sectors[i].patch, sectors[i].node, sectors[i].last, i});
+    }
+    std::sort(by_next_.begin(), by_next_.end());
+    std::sort(by_previous_.begin(), by_previous_.end());
+  }
+
+  // From a sector along the border, forward or backward, up to and with the first corner; true if it comes back to the start.
+  bool walk(int start, bool forward, std::vector<int>& found) const {
+    for (int at = start;;) {
+      const Sector& s = sectors_[at];
+      const int to = forward ? s.first : s.last;
+      const auto& index = forward ? by_previous_ : by_next_;
+      const auto it = std::lower_bound(index.begin(), index.end(), std::array{s.patch, to, s.node, -1});
+      if (it == index.end() || (*it)[0] != s.patch || (*it)[1] != to || (*it)[2] != s.node) return false;
+      at = (*it)[3];
+      if (at == start) return true;
+      found.push_back(at);
+      if (is_corner(at)) return false;
+    }
+  }
+  bool is_corner(int i) const { return std::abs(sectors_[i].angle - kPi) > kStraight; }
+
+  // The stretches a sheet for this sector can follow.
+  std::vector<Stretch> stretches(int start) const {
+    std::vector<int> forward, backward;
+    if (walk(start, true, forward)) {
+      forward.insert(forward.begin(), start);
+      return {as_stretch(forward, true)};
+    }
+    walk(start, false, backward);
+    std::vector<int> both(backward.rbegin(), backward.rend());
+    both.push_back(start);
+    std::vector<Stretch> found;
+    if (is_corner(start)) {
+      found.push_back(as_stretch(both, false));
+      forward.insert(forward.begin(), start);
+      found.push_back(as_stretch(forward, false));
+      both.insert(both.end(), forward.begin() + 1, forward.end());
+    } else {
+      both.insert(both.end(), forward.begin(), forward.end());
+    }
+    found.push_back(as_stretch(both, false));
+    return found;
+  }
+
+ private:
+  Stretch as_stretch(const std::vector<int>& list, bool closed) const {
+    Stretch stretch;
+    stretch.closed = closed;
+    for (int i : list) {
+      stretch.nodes.push_back(sectors_[i].node);
+      stretch.bad.push_back(angle_cost(sectors_[i].quads, sectors_[i].angle) >= kBadSector);
+    }
+    return stretch;
+  }
+
+  const std::vector<Sector>& sectors_;
+  std::vector<std::array<int, 4>> by_next_, by_previous_;  // patch, node, neighbour, sector
+};
+
+// A stretch cut down to its bad nodes and two more on each side.
+Stretch trimmed(const Stretch& stretch) {
+  if (stretch.closed) return stretch;
+  const int count = static_cast<int>(stretch.nodes.size());
+  int first = count, last = -1;
+  for (int i = 0; i < count; ++i) {
+    if (!stretch.bad[i]) continue;
+    first = std::min(first, i);
+    last = i;
+  }
+  first = std::max(0, first - 2);
+  last = std::min(count - 1, last + 2);
+  return {{stretch.nodes.begin() + first, stretch.nodes.begin() + last + 1}, false, {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
+}
+
+// Quads of the patch along a stretch.
+std::vector<int> band_of(const Whole& whole, int patch, const Stretch& stretch) {
+  std::vector<int> band;
+  const std::size_t skip = stretch.closed ? 0 : 1;  // quads that only touch an end stay out
+  for (std::size_t i = skip; i + skip < stretch.nodes.size(); ++i) {
+    for (int q : whole.node_quads[stretch.nodes[i]]) {
+      if (whole.padded.association.quad_patch[q] == patch) band.push_back(q);
+    }
+  }
+  std::sort(band.begin(), band.end());
+  band.erase(std::unique(band.begin(), band.end()), band.end());
+  return band;
+}
+
+// The best sheet for a bad sector; no hexes if none gains.
+Candidate best_sheet(const Whole& whole, const Border& border, const std::vector<Sector>& sectors, int bad) {
+  const int patch = sectors[bad].patch;
+  std::vector<int> all;
+  for (int q = 0; q < static_cast<int>(whole.padded.association.quads.size()); ++q) {
+    if (whole.padded.association.quad_patch[q] == patch) all.push_back(q);
+  }
+  Candidate best;
+  best.gain = kLeastGain;
+  const auto consider = [&](const Stretch& stretch, const std::vector<int>& band) {
+    if (band.empty()) return;
+    Candidate candidate = make_candidate(whole, patch, stretch, band);
+    if (rate(whole, patch, candidate) && candidate.gain > best.gain) best = std::move(candidate);
+  };
+  for (const Stretch& stretch : border.stretches(bad)) {
+    const auto band = band_of(whole, patch, stretch);
+    consider(stretch, band);
+    if (all.size() <= 4 * band.size()) consider(stretch, all);
+    const Stretch shorter = trimmed(stretch);
+    if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter));
+  }
+  return best;
+}
+
+}  // namespace
+
+int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor) {
+  std::set<std::array<int, 2>> given_up;  // node, patch
+  int sheets = 0;
+  for (bool again = true; again && sheets < kMaxSheets;) {
+    again = false;
+    std::vector<char> on_edge(padded.mesh.points.size(), 0);
+    for (std::size_t v = 0; v < on_edge.size(); ++v) on_edge[v] = padded.association.point_cad[v].dim <= 1;
+    const auto sectors = find_sectors(model, padded.mesh, padded.association, on_edge);
+    std::vector<int> bad;
+    for (int i = 0; i < static_cast<int>(sectors.size()); ++i) {
+      if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kBadSector &&
+          given_up.count({sectors[i].node, sectors[i].patch}) == 0) {
+        bad.push_back(i);
+      }
+    }
+    if (bad.empty()) break;
+    const Whole whole(model, padded);
+    const Border border(sectors);
+    for (int i : bad) {
+      monitor.check();
+      const Candidate best = best_sheet(whole, border, sectors, i);
+      if (best.inside.empty()) {
+        given_up.insert({sectors[i].node, sectors[i].patch});
+        continue;
+      }
+      SheetCut cut{std::vector<char>(padded.mesh.hexes.size(), 0), std::vector<char>(padded.association.quads.size(), 0)};
+      for (int h : best.inside) cut.inside[h] = 1;
+      for (int q : best.surface) cut.surface[q] = 1;
+      insert_sheet(padded.mesh, padded.association, cut);
+      ++sheets;
+      again = true;
+      break;
+    }
+  }
+  return sheets;
+}
+
+}  // namespace polycube

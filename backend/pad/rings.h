@@ -1,0 +1,13 @@
+// Sheets round stretches of a patch's border where the number of quads at a node does not fit the angle of the CAD there.
+#pragma once
+
+#include "pad/pad.h"
+
+namespace polycube {
+
+/// Where a CAD edge crosses the grid as a staircase, a corner of the stair has one quad on a straight border: no move of nodes makes that cell good.
+/// A sheet along the border, through the hexes under the patch, gives every node there two quads. Inserts such sheets one at a time, each the best
+/// of a few shapes by total angle_cost, as long as one gains. Returns how many.
+int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor);
+
+}  // namespace polycube

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "pad/angles.h"
+#include "pad/pad.h"
+#include "support/grids.h"
+
+namespace polycube {
+namespace {
+
+using namespace testing;
+
+double worst_sector(const CadModel& model, const HexMesh& mesh, const Association& a) {
+  double worst = 0;
+  for (const Sector& s : find_sectors(model, mesh, a, std::vector<char>(mesh.points.size(), 1))) worst = std::max(worst, angle_cost(s.quads, s.angle));
+  return worst;
+}
+
+TEST(PadRings, GivesEveryNodeOfAnImprintedCircleTwoQuadsASide) {
+  const Grid grid = imprint_grid();
+  const CadModel model = model_of(grid.shape);
+  ASSERT_EQ(check(grid.mesh, grid.association), std::vector<std::string>{});
+  ASSERT_GE(worst_sector(model, grid.mesh, grid.association), 1000);
+  PadReport report;
+  const PaddedMesh result = pad(model, grid.mesh, grid.association, Monitor{}, &report);
+  EXPECT_EQ(check(result.mesh, result.association), std::vector<std::string>{});
+  EXPECT_EQ(report.surface_quads, 0);
+  EXPECT_EQ(report.rings, 2);
+  EXPECT_LT(worst_sector(model, result.mesh, result.association), 0.5);
+  EXPECT_EQ(report.added_hexes, static_cast<int>(result.mesh.hexes.size() - grid.mesh.hexes.size()));
+}
+
+TEST(PadRings, SectorsOfABoxAreRightAngles) {
+  const Grid grid = box_grid(2);
+  const CadModel model = model_of(grid.shape);
+  int corners = 0;
+  for (const Sector& s : find_sectors(model, grid.mesh, grid.association, std::vector<char>(grid.mesh.points.size(), 1))) {
+    const int dim = grid.association.point_cad[s.node].dim;
+    EXPECT_EQ(s.quads, dim == 0 ? 1 : dim == 1 ? 2 : 4);
+    EXPECT_NEAR(s.angle, s.quads * std::numbers::pi / 2, 1e-9);
+    corners += dim == 0;
+  }
+  EXPECT_EQ(corners, 24);
+}
+
+TEST(PadRings, AReentrantCornerHasThreeQuarters) {
+  const Grid grid = l_grid(2);
+  const CadModel model = model_of(grid.shape);
+  int reentrant = 0;
+  for (const Sector& s : find_sectors(model, grid.mesh, grid.association, std::vector<char>(grid.mesh.points.size(), 1))) {
+    if (s.quads != 3) continue;
+    EXPECT_NEAR(s.angle, 1.5 * std::numbers::pi, 1e-9);
+    ++reentrant;
+  }
+  EXPECT_EQ(reentrant, 2);
+}
+
+}  // namespace
+}  // namespace polycube

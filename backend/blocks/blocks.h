@@ -29,8 +29,10 @@ struct BlockComplex {
   std::vector<std::array<int, 3>> vertex_charts;   ///< per block vertex and axis: the chart (unknown) whose plane it lies on
   std::vector<Sheet> sheets;
   /// Per chart: the chart whose integer it takes. Charts of one axis whose planes are one sheet share it: the smallest of them.
-  /// -1 for a feature that no sheet reaches. Block::charts, vertex_charts and Sheet::unknown hold such representatives only.
+  /// -1 for a feature that no sheet reaches and for a collapsed chart that has no part in another chart's sheet. Block::charts, vertex_charts and Sheet::unknown hold such representatives only.
   std::vector<int> unknown;
+  /// Charts (not features) whose image has no net area, ascending: a label that the map folds away. They bound no block and cut nothing.
+  std::vector<int> collapsed;
   /// Per chart: block vertices where one of its nodes stands exactly (ascending). Features only; charts have Block::side_chart.
   std::vector<std::vector<int>> feature_vertices;
 };
@@ -47,7 +49,7 @@ struct BlockReport {
   int euler = 0;                    ///< Euler characteristic of the boundary
   int nonmanifold_edges = 0;        ///< boundary edges without exactly two boundary sides
   int asymmetric_neighbours = 0;    ///< sides whose neighbour does not know them, or has another rectangle
-  std::vector<int> lost_charts;     ///< charts (not features) on no block side
+  std::vector<int> lost_charts;     ///< charts (neither features nor collapsed) on no block side
   bool good(int solid_euler) const {
     return blocks > 0 && nonmanifold_edges == 0 && asymmetric_neighbours == 0 && lost_charts.empty() && euler == solid_euler;
   }

@@ -1,0 +1,486 @@
+#include "blocks/blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+
+#include "blocks/clip.h"
+#include "blocks/sheets.h"
+#include "blocks/topology.h"
+#include "blocks/union_find.h"
+#include "core/error.h"
+#include "core/hexahedron.h"
+
+namespace polycube {
+namespace {
+
+[[noreturn]] void fail(const std::string& reason, std::vector<int> charts, const TetMesh& mesh, const PolycuboidMap& map) {
+  std::sort(charts.begin(), charts.end());
+  charts.erase(std::unique(charts.begin(), charts.end()), charts.end());
+  std::string message = reason;
+  std::vector<CadRef> entities;
+  const char* separator = ": charts ";
+  for (int c : charts) {
+    message += separator + std::to_string(c);
+    separator = ", ";
+    for (int t : map.charts[c].triangles) {
+      if (t < static_cast<int>(mesh.triangle_face.size())) entities.push_back({2, mesh.triangle_face[t]});
+    }
+  }
+  std::sort(entities.begin(), entities.end());
+  entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
+  throw StageFailed("blocks", message, entities);
+}
+
+void validate(const TetMesh& mesh, const PolycuboidMap& map) {
+  if (mesh.tets.empty()) throw InvalidInput("the mesh has no tetrahedra");
+  if (map.image.size() != mesh.points.size()) throw InvalidInput("the map does not have one image per point of the mesh");
+  std::vector<char> seen(mesh.triangles.size(), 0);
+  for (const Chart& chart : map.charts) {
+    if (chart.axis < 0 || chart.axis > 2) throw InvalidInput("a chart has no axis");
+    for (int t : chart.triangles) {
+      if (t < 0 || t >= static_cast<int>(seen.size()) || seen[t]) throw InvalidInput("a chart's triangles are not its own");
+      seen[t] = 1;
+    }
+    for (int v : chart.nodes) {
+      if (v < 0 || v >= static_cast<int>(map.image.size())) throw InvalidInput("a chart refers to a point that does not exist");
+    }
+  }
+  if (std::count(seen.begin(), seen.end(), 0) > 0) throw InvalidInput("a boundary triangle belongs to no chart");
+}
+
+/// Area of a component's side that lies on one sheet.
+struct SideArea {
+  int component, axis, side, plane, sheet;
+  int chart;  ///< the boundary chart there, or -1 for a cut
+  double area;
+};
+
+/// Area of the cut between two components.
+struct Flux {
+  int low, high;  ///< components, pieces before they are known
+  int axis, plane, sheet;
+  double area;
+};
+
+struct ChartArea {
+  int component;  ///< piece before components are known
+  int chart;
+  double area;    ///< along +axis
+};
+
+struct Box {
+  std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}}, chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
+};
+
+/// Cuts every tet by its sheets and gathers the pieces that adjoin into components.
+class Pieces {
+ public:
+  Pieces(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, const SheetCuts& cuts)
+      : mesh_(mesh), topology_(topology), cuts_(cuts), chart_of_triangle_(mesh.triangles.size(), -1) {
+    for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
+      for (int t : map.charts[c].triangles) chart_of_triangle_[t] = c;
+    }
+    axis_.reserve(map.charts.size());
+    for (const Chart& chart : map.charts) axis_.push_back(chart.axis);
+  }
+
+  void run(const Monitor& monitor) {
+    const int tet_count = static_cast<int>(mesh_.tets.size());
+    offset.assign(tet_count + 1, 0);
+    for (int t = 0; t < tet_count; ++t) {
+      const auto n = counts(t);
+      offset[t + 1] = offset[t] + (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
+    }
+    volume_.assign(offset.back(), 0);
+    used_.assign(offset.back(), 0);
+    UnionFind sets(offset.back());
+    sets_ = &sets;
+    for (int t = 0; t < tet_count; ++t) {
+      if (t % 4096 == 0) monitor.progress("blocks", 0.1 + 0.7 * t / tet_count);
+      cut_tet(t);
+    }
+    component.assign(offset.back(), -1);
+    for (int p = 0; p < offset.back(); ++p) {
+      if (!used_[p]) continue;
+      const int root = sets.find(p);
+      if (component[root] < 0) {
+        component[root] = static_cast<int>(volume.size());
+        volume.push_back(0);
+      }
+      component[p] = component[root];
+      volume[component[p]] += volume_[p];
+    }
+    for (Flux& f : fluxes) {
+      f.low = component[f.low];
+      f.high = component[f.high];
+    }
+    const auto key = [](const Flux& f) { return std::array{f.low, f.high, f.axis, f.plane, f.sheet}; };
+    std::stable_sort(fluxes.begin(), fluxes.end(), [&](const Flux& a, const Flux& b) { return key(a) < key(b); });
+    std::size_t kept = 0;
+    for (const Flux& f : fluxes) {
+      if (kept > 0 && key(fluxes[kept - 1]) == key(f)) {
+        fluxes[kept - 1].area += f.area;
+      } else {
+        fluxes[kept++] = f;
+      }
+    }
+    fluxes.resize(kept);
+    for (ChartArea& a : chart_areas) a.component = component[a.component];
+  }
+
+  std::vector<int> offset;          ///< CSR: pieces of every tet
+  std::vector<int> component;       ///< per piece, -1 where a tet has no such piece
+  std::vector<double> volume;       ///< per component, signed
+  std::vector<Flux> fluxes;
+  std::vector<ChartArea> chart_areas;
+
+ private:
+  std::array<int, 3> counts(int t) const {
+    std::array<int, 3> n{};
+    for (int i = cuts_.first[t]; i < cuts_.first[t + 1]; ++i) ++n[cuts_.cuts[i].axis];
+    return n;
+  }
+
+  void cut_tet(int t) {
+    const Tet& tet = mesh_.tets[t];
+    clipper_.load({cuts_.image[tet[0]], cuts_.image[tet[1]], cuts_.image[tet[2]], cuts_.image[tet[3]]});
+    begin_[0] = cuts_.first[t];
+    const auto n = counts(t);
+    for (int d = 0; d < 3; ++d) begin_[d + 1] = begin_[d] + n[d];
+    slice(t, 0, clipper_.whole(), {});
+  }
+
+  void slice(int t, int axis, const Polyhedron& in, std::array<int, 3> at) {
+    if (axis == 3) return emit(t, in, at);
+    if (begin_[axis] == begin_[axis + 1]) return slice(t, axis + 1, in, at);
+    auto& [rest, below, above] = buffers_[axis];
+    rest = in;
+    for (int i = begin_[axis]; i < begin_[axis + 1] && !rest.tags.empty(); ++i, ++at[axis]) {
+      clipper_.split(rest, axis, cuts_.planes[axis][cuts_.cuts[i].plane], below, above);
+      if (!below.tags.empty()) slice(t, axis + 1, below, at);
+      std::swap(rest, above);
+    }
+    if (!rest.tags.empty()) slice(t, axis + 1, rest, at);
+  }
+
+  int piece(int t, const std::array<int, 3>& at) const {
+    return offset[t] + (at[0] * (begin_[2] - begin_[1] + 1) + at[1]) * (begin_[3] - begin_[2] + 1) + at[2];
+  }
+
+  void emit(int t, const Polyhedron& p, const std::array<int, 3>& at) {
+    const int self = piece(t, at);
+    used_[self] = 1;
+    volume_[self] = clipper_.volume6(p) / 6;
+    for (int f = 0; f < static_cast<int>(p.tags.size()); ++f) {
+      const int tag = p.tags[f];
+      if (tag >= 4) {
+        if (tag % 2 == 0) continue;  // a cut is booked once, from below
+        const int axis = (tag - 4) / 2;
+        auto above = at;
+        ++above[axis];
+        const Cut& cut = cuts_.cuts[begin_[axis] + at[axis]];
+        fluxes.push_back({self, piece(t, above), axis, cut.plane, cut.sheet, clipper_.area2(p, f, axis) / 2});
+      } else if (const int n = topology_.neighbours[t][tag]; n < 0) {
+        const int chart = chart_of_triangle_[topology_.triangles[t][tag]];
+        chart_areas.push_back({self, chart, clipper_.area2(p, f, axis_[chart]) / 2});
+      } else if (n > t) {
+        sets_->unite(self, neighbour_piece(t, tag, n, at));
+      }
+    }
+  }
+
+  /// The piece of tet n that shares the part of facet f that belongs to piece `at` of tet t.
+  int neighbour_piece(int t, int f, int n, const std::array<int, 3>& at) const {
+    int index = 0, i = cuts_.first[n];
+    const int end = cuts_.first[n + 1];
+    for (int axis = 0; axis < 3; ++axis) {
+      const int low = at[axis] > 0 ? cuts_.cuts[begin_[axis] + at[axis] - 1].plane : -1;
+      double smallest = cuts_.image[mesh_.tets[t][kTetFacets[f][0]]][axis];
+      for (int k : kTetFacets[f]) smallest = std::min(smallest, cuts_.image[mesh_.tets[t][k]][axis]);
+      int below = 0, count = 0;
+      for (; i < end && cuts_.cuts[i].axis == axis; ++i, ++count) {
+        const int plane = cuts_.cuts[i].plane;
+        if (plane <= low || cuts_.planes[axis][plane] < smallest) ++below;
+      }
+      index = index * (count + 1) + below;
+    }
+    return offset[n] + index;
+  }
+
+  const TetMesh& mesh_;
+  const TetTopology& topology_;
+  const SheetCuts& cuts_;
+  std::vector<int> chart_of_triangle_, axis_;
+  TetClipper clipper_;
+  std::array<int, 4> begin_{};  ///< per axis the first of the tet's cuts
+  std::array<std::array<Polyhedron, 3>, 3> buffers_;
+  std::vector<double> volume_;
+  std::vector<char> used_;
+  UnionFind* sets_ = nullptr;
+};
+
+class Assembly {
+ public:
+  Assembly(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, const SheetCuts& cuts, const Pieces& pieces)
+      : mesh_(mesh), map_(map), topology_(topology), cuts_(cuts), pieces_(pieces) {}
+
+  BlockComplex run() {
+    find_boxes();
+    choose_blocks();
+    find_neighbours();
+    find_vertices();
+    collect_tets();
+    find_feature_vertices();
+    complex_.sheets = cuts_.sheets;
+    complex_.unknown = cuts_.unknown;
+    for (int c = 0; c < static_cast<int>(map_.charts.size()); ++c) {
+      if (cuts_.collapsed[c]) complex_.collapsed.push_back(c);
+    }
+    return std::move(complex_);
+  }
+
+ private:
+  double extent(const Box& box, int axis) const {
+    return cuts_.planes[axis][box.plane[axis][1]] - cuts_.planes[axis][box.plane[axis][0]];
+  }
+
+  /// The box of every component: per side the plane that carries most of its net area.
+  void find_boxes() {
+    std::vector<SideArea> sides;
+    sides.reserve(2 * pieces_.fluxes.size() + pieces_.chart_areas.size());
+    for (const Flux& f : pieces_.fluxes) {
+      sides.push_back({f.low, f.axis, 1, f.plane, f.sheet, -1, f.area});
+      sides.push_back({f.high, f.axis, 0, f.plane, f.sheet, -1, f.area});
+    }
+    for (const ChartArea& a : pieces_.chart_areas) {
+      if (cuts_.collapsed[a.chart]) continue;
+      const Chart& chart = map_.charts[a.chart];
+      sides.push_back({a.component, chart.axis, chart.sign > 0 ? 1 : 0, cuts_.chart_plane[a.chart], cuts_.chart_sheet[a.chart], a.chart,
+                       chart.sign > 0 ? a.area : -a.area});
+    }
+    const auto key = [](const SideArea& s) { return std::array{s.component, s.axis, s.side, s.plane, s.sheet, s.chart}; };
+    std::stable_sort(sides.begin(), sides.end(), [&](const SideArea& a, const SideArea& b) { return key(a) < key(b); });
+    boxes_.assign(pieces_.volume.size(), {});
+    for (std::size_t i = 0; i < sides.size();) {
+      const SideArea& s = sides[i];
+      // All entries of one side of one component.
+      double best = 0;
+      for (; i < sides.size() && sides[i].component == s.component && sides[i].axis == s.axis && sides[i].side == s.side;) {
+        double total = 0, best_part = 0;
+        int sheet = -1, chart = -1;
+        const int plane = sides[i].plane;
+        while (i < sides.size() && sides[i].component == s.component && sides[i].axis == s.axis && sides[i].side == s.side &&
+               sides[i].plane == plane) {
+          double part = 0;
+          const std::size_t begin = i;
+          for (; i < sides.size() && key(sides[i]) == key(sides[begin]); ++i) part += sides[i].area;
+          total += part;
+          if (part > best_part) {
+            best_part = part;
+            sheet = sides[begin].sheet;
+            chart = sides[begin].chart;
+          }
+        }
+        if (total <= best) continue;
+        best = total;
+        Box& box = boxes_[s.component];
+        box.plane[s.axis][s.side] = plane;
+        box.sheet[s.axis][s.side] = sheet;
+        box.chart[s.axis][s.side] = chart;
+      }
+    }
+  }
+
+  void choose_blocks() {
+    block_of_.assign(boxes_.size(), -1);
+    double total = 0, kept = 0;
+    std::vector<int> blamed;
+    for (std::size_t k = 0; k < boxes_.size(); ++k) {
+      const Box& box = boxes_[k];
+      total += pieces_.volume[k];
+      double box_volume = 1;
+      bool solid = true;
+      for (int d = 0; d < 3 && solid; ++d) {
+        solid = box.plane[d][0] >= 0 && box.plane[d][1] > box.plane[d][0];
+        if (solid) box_volume *= extent(box, d);
+      }
+      const double degree = solid ? pieces_.volume[k] / box_volume : 0;
+      if (std::abs(degree) < 1e-3) continue;
+      if (std::abs(degree - 1) > 1e-3) {
+        for (int d = 0; d < 3; ++d) {
+          for (int sheet : box.sheet[d]) blamed.insert(blamed.end(), cuts_.sheets[sheet].charts.begin(), cuts_.sheets[sheet].charts.end());
+        }
+        continue;
+      }
+      Block block;
+      block.volume = box_volume;
+      for (int d = 0; d < 3; ++d) {
+        block.sheets[d] = box.sheet[d];
+        for (int s : {0, 1}) block.charts[d][s] = cuts_.sheets[box.sheet[d][s]].unknown;
+      }
+      block.neighbours.fill(-1);
+      block.side_chart.fill(-1);
+      kept += box_volume;
+      block_of_[k] = static_cast<int>(complex_.blocks.size());
+      component_of_.push_back(static_cast<int>(k));
+      complex_.blocks.push_back(std::move(block));
+    }
+    if (!blamed.empty()) fail("the charts' planes do not bound a volume", std::move(blamed), mesh_, map_);
+    if (complex_.blocks.empty()) fail("the image of the map has no volume", {}, mesh_, map_);
+    if (std::abs(total - kept) > 1e-6 * kept) fail("the blocks do not fill the image of the map", {}, mesh_, map_);
+  }
+
+  double side_area(const Block& block, int component, int axis) const { return block.volume / extent(boxes_[component], axis); }
+
+  void find_neighbours() {
+    // Components of no volume below a block's low side hold the boundary triangles of the chart there.
+    std::vector<std::vector<std::pair<int, double>>> charts_in(boxes_.size());
+    for (const ChartArea& a : pieces_.chart_areas) {
+      auto& list = charts_in[a.component];
+      const auto known = std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == a.chart; });
+      if (known == list.end()) {
+        list.push_back({a.chart, a.area});
+      } else {
+        known->second += a.area;
+      }
+    }
+    std::vector<std::array<double, 3>> best(complex_.blocks.size(), {0, 0, 0});
+    for (const Flux& f : pieces_.fluxes) {
+      const int high = block_of_[f.high], low = block_of_[f.low];
+      if (high >= 0 && boxes_[f.high].plane[f.axis][0] == f.plane) {
+        Block& block = complex_.blocks[high];
+        if (low >= 0) {
+          if (boxes_[f.low].plane[f.axis][1] != f.plane || f.area < 0.5 * side_area(block, f.high, f.axis)) continue;
+          block.neighbours[2 * f.axis] = low;
+          complex_.blocks[low].neighbours[2 * f.axis + 1] = high;
+        } else {
+          for (auto [chart, area] : charts_in[f.low]) {
+            if (cuts_.collapsed[chart] || map_.charts[chart].axis != f.axis || cuts_.chart_plane[chart] != f.plane || map_.charts[chart].sign > 0) continue;
+            const double weight = std::min(-area, f.area);
+            if (weight <= best[high][f.axis]) continue;
+            best[high][f.axis] = weight;
+            block.side_chart[2 * f.axis] = chart;
+          }
+        }
+      }
+    }
+    for (std::size_t b = 0; b < complex_.blocks.size(); ++b) {
+      Block& block = complex_.blocks[b];
+      for (int d = 0; d < 3; ++d) {
+        if (block.neighbours[2 * d] >= 0) block.side_chart[2 * d] = -1;
+        if (block.neighbours[2 * d + 1] < 0) block.side_chart[2 * d + 1] = boxes_[component_of_[b]].chart[d][1];
+      }
+    }
+  }
+
+  void find_vertices() {
+    auto& blocks = complex_.blocks;
+    UnionFind same(8 * blocks.size());
+    for (int b = 0; b < static_cast<int>(blocks.size()); ++b) {
+      for (int d = 0; d < 3; ++d) {
+        const int n = blocks[b].neighbours[2 * d + 1];
+        if (n < 0) continue;
+        for (int c = 0; c < 8; ++c) {
+          if (kCornerCoordinates[c][d] == 1) same.unite(8 * b + c, 8 * n + mirrored(c, d));
+        }
+      }
+    }
+    std::vector<int> number(8 * blocks.size(), -1);
+    for (int i = 0; i < static_cast<int>(number.size()); ++i) {
+      const int root = same.find(i);
+      if (root == i) {
+        number[i] = complex_.vertex_count++;
+        const Block& block = blocks[i / 8];
+        const auto& side = kCornerCoordinates[i % 8];
+        complex_.vertex_charts.push_back({block.charts[0][side[0]], block.charts[1][side[1]], block.charts[2][side[2]]});
+      }
+      blocks[i / 8].corners[i % 8] = number[root];
+    }
+  }
+
+  /// The corner on the other side along axis d.
+  static int mirrored(int corner, int d) {
+    auto wanted = kCornerCoordinates[corner];
+    wanted[d] = 1 - wanted[d];
+    return static_cast<int>(std::find(kCornerCoordinates.begin(), kCornerCoordinates.end(), wanted) - kCornerCoordinates.begin());
+  }
+
+  void collect_tets() {
+    for (int t = 0; t < static_cast<int>(mesh_.tets.size()); ++t) {
+      for (int p = pieces_.offset[t]; p < pieces_.offset[t + 1]; ++p) {
+        const int b = pieces_.component[p] < 0 ? -1 : block_of_[pieces_.component[p]];
+        if (b >= 0 && (complex_.blocks[b].tets.empty() || complex_.blocks[b].tets.back() != t)) complex_.blocks[b].tets.push_back(t);
+      }
+    }
+  }
+
+  void find_feature_vertices() {
+    complex_.feature_vertices.resize(map_.charts.size());
+    for (std::size_t c = 0; c < map_.charts.size(); ++c) {
+      if (map_.charts[c].sign != 0) continue;
+      auto& found = complex_.feature_vertices[c];
+      for (int node : map_.charts[c].nodes) {
+        for (int i = topology_.node_tets_first[node]; i < topology_.node_tets_first[node + 1]; ++i) {
+          const int t = topology_.node_tets[i];
+          for (int p = pieces_.offset[t]; p < pieces_.offset[t + 1]; ++p) {
+            if (pieces_.component[p] >= 0) add_corner_at(cuts_.image[node], pieces_.component[p], found);
+          }
+        }
+      }
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+    }
+  }
+
+  void add_corner_at(const Vec3& place, int component, std::vector<int>& found) const {
+    if (block_of_[component] < 0) return;
+    std::array<int, 3> side{};
+    for (int d = 0; d < 3; ++d) {
+      const auto& plane = boxes_[component].plane[d];
+      if (std::abs(place[d] - cuts_.planes[d][plane[0]]) <= cuts_.tolerance) {
+        side[d] = 0;
+      } else if (std::abs(place[d] - cuts_.planes[d][plane[1]]) <= cuts_.tolerance) {
+        side[d] = 1;
+      } else {
+        return;
+      }
+    }
+    const auto corner = std::find(kCornerCoordinates.begin(), kCornerCoordinates.end(), side) - kCornerCoordinates.begin();
+    found.push_back(complex_.blocks[block_of_[component]].corners[static_cast<std::size_t>(corner)]);
+  }
+
+  const TetMesh& mesh_;
+  const PolycuboidMap& map_;
+  const TetTopology& topology_;
+  const SheetCuts& cuts_;
+  const Pieces& pieces_;
+  std::vector<Box> boxes_;         ///< per component
+  std::vector<int> block_of_;      ///< per component, or -1
+  std::vector<int> component_of_;  ///< per block
+  BlockComplex complex_;
+};
+
+}  // namespace
+
+BlockComplex extract_blocks(const TetMesh& tets, const PolycuboidMap& map, const Monitor& monitor) {
+  monitor.progress("blocks", 0);
+  validate(tets, map);
+  const TetTopology topology = find_topology(tets);
+  const SheetCuts cuts = find_sheets(tets, map, topology, monitor);
+  monitor.progress("blocks", 0.1);
+  Pieces pieces(tets, map, topology, cuts);
+  pieces.run(monitor);
+  monitor.progress("blocks", 0.8);
+  BlockComplex complex = Assembly(tets, map, topology, cuts, pieces).run();
+  const BlockReport report = check(complex, map);
+  if (!report.lost_charts.empty()) fail("charts without area in the image of the map", report.lost_charts, tets, map);
+  if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
+  if (report.nonmanifold_edges > 0) fail("the boundary of the blocks is not a manifold", {}, tets, map);
+  if (report.euler != euler_characteristic(tets.triangles)) fail("the blocks do not have the topology of the solid", {}, tets, map);
+  monitor.progress("blocks", 1);
+  return complex;
+}
+
+}  // namespace polycube

@@ -1,0 +1,43 @@
+// The quantization of a block complex as three problems on differences, coupled by C2 only.
+#pragma once
+
+#include "quantize/quantize.h"
+
+namespace polycube {
+
+/// weight * |l[high] - l[low] - target|
+struct Term {
+  int low, high;
+  double weight, target;
+};
+
+/// l[high] - l[low] >= at_least
+struct Difference {
+  int low, high;
+  int at_least;
+  int source = -1;  ///< engineer's constraint it comes from, or -1
+  friend bool operator==(const Difference&, const Difference&) = default;
+  friend auto operator<=>(const Difference&, const Difference&) = default;
+};
+
+/// One axis; low and high are numbers of unknowns of this axis.
+struct AxisProblem {
+  std::vector<int> charts;                ///< per unknown: its chart (BlockComplex::unknown)
+  std::vector<Term> terms;                ///< sorted, one per (low, high, target)
+  std::vector<Difference> differences;    ///< sorted, one per (low, high): C1, opposite charts, engineer's
+};
+
+struct QuantizeProblem {
+  std::array<AxisProblem, 3> axes;
+  std::vector<int> number;                ///< per chart: its unknown's number in its axis, -1 without sheet
+};
+
+/// Throws InvalidInput on constraints between charts that have no common axis, and on options out of bounds.
+QuantizeProblem build_problem(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options);
+
+/// Charts that bound a line of blocks on both ends, with the axis; chart numbers as in BlockComplex::unknown. Sorted, distinct.
+std::vector<std::array<int, 3>> opposite_charts(const BlockComplex& blocks);
+
+double objective(const AxisProblem& problem, const std::vector<int>& values);
+
+}  // namespace polycube

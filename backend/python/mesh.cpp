@@ -1,0 +1,99 @@
+#include <pybind11/stl.h>
+
+#include "core/error.h"
+#include "core/report.h"
+#include "fem/fem.h"
+#include "pipeline/pipeline.h"
+#include "python/bindings.h"
+
+namespace polycube::python {
+namespace {
+
+struct Mesh {
+  FemMesh fem;
+  MeshReport report;
+};
+
+py::array_t<int> nodes_of(const Mesh& mesh, const std::vector<std::array<int, 20>>& rows) { return to_array<int>(rows, mesh.fem.order == 2 ? 20 : 8); }
+
+py::dict groups(const Mesh& mesh) {
+  static constexpr std::array<const char*, 4> kElements{"", "segments", "quads", "hexes"};
+  py::dict all;
+  for (const FemGroup& group : mesh.fem.groups) {
+    py::dict entry;
+    entry["nodes"] = to_array(group.nodes);
+    if (group.entity.dim > 0) entry[kElements[static_cast<std::size_t>(group.entity.dim)]] = to_array(group.elements);
+    all[py::str(polycube::name(group.entity))] = entry;
+  }
+  return all;
+}
+
+py::array_t<double> qualities(const Mesh& mesh) {
+  std::vector<double> values;
+  values.reserve(mesh.fem.hexes.size());
+  for (const auto& nodes : mesh.fem.hexes) {
+    Hex corners;
+    std::copy_n(nodes.begin(), 8, corners.begin());
+    values.push_back(scaled_jacobian(mesh.fem.points, corners));
+  }
+  return to_array(values);
+}
+
+py::object report(const Mesh& mesh) { return py::module_::import("json").attr("loads")(to_json(mesh.report)); }
+
+Mesh make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const py::object& progress, const py::object& log,
+          const py::object& cancel, const py::kwargs& given) {
+  const MeshOptions options = options_from(given);
+  Callbacks callbacks(progress, log, cancel);
+  return run_released(callbacks, options, [&] {
+    const auto seconds = [](Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); };
+    const auto read_start = Monitor::Clock::now();
+    const CadModel model = read_model(path, brep);
+    check(options, model.diagonal(), model.face_count());
+    const double read_seconds = seconds(read_start);
+    MeshResult result = polycube::mesh(model, options, callbacks.monitor);
+    const auto fem_start = Monitor::Clock::now();
+    Mesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, callbacks.monitor), std::move(result.report)};
+    made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
+    made.report.stages.push_back({"fem", seconds(fem_start)});
+    made.report.nodes = static_cast<int>(made.fem.points.size());
+    made.report.straightened_edges = made.fem.straightened;
+    return made;
+  });
+}
+
+void write_mesh(const Mesh& mesh, const std::string& path, const std::optional<std::string>& element_type) {
+  const py::gil_scoped_release released;
+  write(mesh.fem, path, element_type.value_or(effective_element_type(mesh.report.options)), Monitor());
+}
+
+}  // namespace
+
+void bind_mesh(py::module_& module) {
+  py::class_<Mesh> cls(module, "Mesh", "Finite element mesh; see backend/python/README.md for shapes and orders.");
+  const auto fields = std::make_tuple(
+      std::make_pair("order", [](const Mesh& m) { return py::object(py::int_(m.fem.order)); }),
+      std::make_pair("nodes", [](const Mesh& m) { return py::object(to_array<double>(m.fem.points, 3)); }),
+      std::make_pair("hexes", [](const Mesh& m) { return py::object(nodes_of(m, m.fem.hexes)); }),
+      std::make_pair("quads", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quads, m.fem.order == 2 ? 8 : 4)); }),
+      std::make_pair("quad_face", [](const Mesh& m) { return py::object(to_array(m.fem.quad_face)); }),
+      std::make_pair("quad_hex", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quad_hex, 2)); }),
+      std::make_pair("segments", [](const Mesh& m) { return py::object(to_array<int>(m.fem.segments, m.fem.order == 2 ? 3 : 2)); }),
+      std::make_pair("segment_edge", [](const Mesh& m) { return py::object(to_array(m.fem.segment_edge)); }),
+      std::make_pair("groups", [](const Mesh& m) { return py::object(groups(m)); }),
+      std::make_pair("scaled_jacobian", [](const Mesh& m) { return py::object(qualities(m)); }),
+      std::make_pair("report", [](const Mesh& m) { return report(m); }));
+  std::apply([&](const auto&... field) { (cls.def_property_readonly(field.first, field.second), ...); }, fields);
+  cls.def("to_dict", [fields](const Mesh& m) {
+    py::dict all;
+    std::apply([&](const auto&... field) { ((all[field.first] = field.second(m)), ...); }, fields);
+    return all;
+  });
+  cls.def("write", &write_mesh, py::arg("path"), py::arg("element_type") = py::none(),
+          "Writes .inp, .unv, .vtu, .med or .mesh by suffix; element_type (.inp only) overrides the option.");
+  module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("progress") = py::none(),
+             py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+             "Hexahedral mesh of one CAD solid. Further keyword arguments: options().");
+}
+
+}  // namespace polycube::python

@@ -1,0 +1,73 @@
+#include "core/error.h"
+#include "python/bindings.h"
+
+namespace polycube::python {
+namespace {
+
+std::string labels_text(const py::dict& labels) {
+  std::string text;
+  for (const auto& [face, label] : labels) {
+    const std::string key = py::str(face);
+    text += (text.empty() ? "" : ",") + (py::isinstance<py::int_>(face) ? "Face" + key : key) + "=" + std::string(py::str(label));
+  }
+  return text;
+}
+
+py::dict describe(const OptionSpec& option) {
+  const MeshOptions defaults;
+  py::dict entry;
+  entry["name"] = option.name;
+  entry["unit"] = option.unit;
+  entry["meaning"] = option.meaning;
+  entry["type"] = option_type(option);
+  std::visit(
+      [&](auto member) {
+        if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*>) {
+          entry["default"] = py::dict();
+        } else {
+          entry["default"] = defaults.*member;
+        }
+      },
+      option.member);
+  entry["min"] = option.min;
+  entry["max"] = option.max;
+  py::list choices;
+  for (const std::string& choice : option.choices) choices.append(choice);
+  entry["choices"] = choices;
+  entry["advanced"] = option.advanced;
+  return entry;
+}
+
+}  // namespace
+
+MeshOptions options_from(const py::kwargs& given) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const auto& [key, value] : given) {
+    if (value.is_none()) continue;
+    const std::string name = py::str(key);
+    if (!py::isinstance<py::dict>(value)) {
+      texts.emplace_back(name, py::str(value));
+    } else if (const std::string text = labels_text(py::reinterpret_borrow<py::dict>(value)); !text.empty()) {
+      texts.emplace_back(name, text);
+    }
+  }
+  return parse_options(texts);
+}
+
+CadModel read_model(const std::optional<std::string>& path, const std::optional<std::string>& brep) {
+  if (path.has_value() == brep.has_value()) throw InvalidInput("give either path or brep");
+  return path ? CadModel::read(*path) : CadModel::from_brep(*brep);
+}
+
+void bind_options(py::module_& module) {
+  module.def(
+      "options",
+      [] {
+        py::list list;
+        for (const OptionSpec& option : option_table()) list.append(describe(option));
+        return list;
+      },
+      "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");
+}
+
+}  // namespace polycube::python

@@ -55,7 +55,7 @@ class MeshArrays(unittest.TestCase):
         self.assertEqual(result.hexes.shape[1], 20)
         self.assertEqual(len(result.scaled_jacobian), len(result.hexes))
         self.assertGreater(result.scaled_jacobian.min(), 0)
-        self.assertAlmostEqual(result.report["volume"], 8000, delta=1e-6 * 8000)
+        self.assertAlmostEqual(result.report["volume"]["mesh"], 8000, delta=1e-6 * 8000)
 
     def test_boundary_is_grouped_by_cad_entity(self):
         groups = self.result.groups

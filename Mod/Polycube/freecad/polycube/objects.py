@@ -78,7 +78,7 @@ def set_mesh(obj, result, options):
     obj.NodeCount = len(result.nodes)
     obj.MinScaledJacobian = quality["min_scaled_jacobian"]
     obj.MeanScaledJacobian = quality["mean_scaled_jacobian"]
-    obj.MeshVolume = result.report["volume"]
+    obj.MeshVolume = result.report["volume"]["mesh"]
     obj.Report = json.dumps(result.report)
     obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
     obj.MeshedShape = shapes.signature(part_of(obj).Shape)

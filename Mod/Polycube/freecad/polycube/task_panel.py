@@ -238,26 +238,21 @@ class MeshPanel:
         if not self.obj or not self.obj.Report:
             return
         report = json.loads(self.obj.Report)
-        quality, capture = report["quality"], report["capture"]
+        quality, captured = report["quality"], report["cad"]
         self.histogram.set_counts(quality["histogram"])
         self.form.summary.setText(
-            "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nCAD faces {}/{}, edges {}/{}, vertices {}/{}".format(
+            "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nOf the CAD model: {}".format(
                 self.obj.Hexahedra,
                 self.obj.NodeCount,
                 quality["min_scaled_jacobian"],
                 quality["mean_scaled_jacobian"],
-                capture["faces_captured"],
-                capture["faces"],
-                capture["edges_captured"],
-                capture["edges"],
-                capture["vertices_captured"],
-                capture["vertices"],
+                ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")),
             )
         )
-        worst = report["worst"]
+        worst = report["worst_cells"]
         self.form.worst.setRowCount(len(worst))
         for row, cell in enumerate(worst):
-            place = ", ".join("Face{}".format(face) for face in cell["faces"]) or "inside"
+            place = ", ".join(cell["faces"]) or "inside"
             for column, text in enumerate((str(cell["hex"] + 1), "{:.3f}".format(cell["scaled_jacobian"]), place)):
                 self.form.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
         self.form.worst.resizeColumnsToContents()

@@ -37,7 +37,13 @@ def picture(name):
 class GuiTest(unittest.TestCase):
     def setUp(self):
         FreeCADGui.activateWorkbench("PolycubeWorkbench")
-        FreeCADGui.getMainWindow().showMaximized()
+        window = FreeCADGui.getMainWindow()
+        window.showMaximized()
+        for dock in window.findChildren(QtGui.QDockWidget):
+            if dock.objectName() == "Combo View":
+                window.resizeDocks([dock], [460], QtCore.Qt.Horizontal)
+            elif dock.objectName() in ("Report view", "Python console"):
+                dock.hide()
         self.document = FreeCAD.newDocument()
         self.document.UndoMode = 1
         self.box = self.document.addObject("Part::Box", "Block")

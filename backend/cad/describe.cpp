@@ -18,6 +18,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
+#include <map>
 #include <numbers>
 
 #include "cad/shape.h"
@@ -106,6 +107,9 @@ void draw_border(const EdgeUse& use, double first, double last, bool wire_forwar
 /// Reads the wires of a face: its border in (u, v) and what each edge is to it.
 void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges, std::vector<CadEdge>& infos, const Maps& maps) {
   const TopoDS_Face face = TopoDS::Face(g.face.Oriented(TopAbs_FORWARD));
+  // BRep_Tool::IsClosed is no test for a seam: a Boolean operation may leave both curves on an edge that bounds the face on one side only.
+  std::map<int, int> occurrences;
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) ++occurrences[maps.edges.FindIndex(it.Current())];
   for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
     const TopoDS_Wire wire = TopoDS::Wire(wires.Current());
     ++g.wires;
@@ -125,7 +129,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
       double first = 0, last = 0;
       use.curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
       if (use.curve.IsNull()) throw InvalidInput(name({1, id}) + " has no curve on " + name({2, face_id}));
-      const bool seam = BRep_Tool::IsClosed(edge, face), degenerate = BRep_Tool::Degenerated(edge);
+      const bool seam = occurrences[id] > 1, degenerate = BRep_Tool::Degenerated(edge);
       starts.push_back(drawn.size());
       draw_border(use, first, last, use.forward, seam || degenerate ? 0 : id, drawn);
       if (degenerate) g.tips.push_back(to_vec(use.curve->Value((first + last) / 2)));

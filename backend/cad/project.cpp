@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "cad/shape.h"
 
@@ -109,8 +110,20 @@ Vec2 newton_foot(const FaceGeometry& face, const Vec3& p, const Vec2& seed, bool
   return uv;
 }
 
+/// The foot on the generatrix nearest to p of the nappe that holds the face; ElSLib's choice may lie on the other nappe or beyond the axis.
+Vec2 cone_foot(const FaceGeometry& face, const gp_Cone& cone, const gp_Pnt& p) {
+  const gp_XYZ d = p.XYZ() - cone.Location().XYZ();
+  const double x = d.Dot(cone.Position().XDirection().XYZ()), y = d.Dot(cone.Position().YDirection().XYZ()), z = d.Dot(cone.Position().Direction().XYZ());
+  const double slope_sin = std::sin(cone.SemiAngle()), slope_cos = std::cos(cone.SemiAngle());
+  const bool beyond_tip = cone.RefRadius() + face.domain.center()[1] * slope_sin < 0;
+  const double angle = std::atan2(y, x) + (beyond_tip ? std::numbers::pi : 0), radius = std::hypot(x, y) * (beyond_tip ? -1 : 1);
+  return {angle, (radius - cone.RefRadius()) * slope_sin + z * slope_cos};
+}
+
 struct ClosedFormFoot {
+  const FaceGeometry& face;
   const gp_Pnt p;
+  Vec2 operator()(const gp_Cone& cone) const { return cone_foot(face, cone, p); }
   Vec2 operator()(const std::monostate&) const { return Vec2::Zero(); }
   template <class Surface>
   Vec2 operator()(const Surface& surface) const {
@@ -138,7 +151,7 @@ Vec2 wrap(const FaceGeometry& face, const Vec2& uv) {
 Vec2 foot_on_surface(const FaceGeometry& face, const Vec3& p, const Vec2& seed, bool* converged) {
   if (face.closed_form.index() == 0) return wrap(face, newton_foot(face, p, seed, converged));
   if (converged) *converged = true;
-  return wrap(face, std::visit(ClosedFormFoot{to_pnt(p)}, face.closed_form));
+  return wrap(face, std::visit(ClosedFormFoot{face, to_pnt(p)}, face.closed_form));
 }
 
 Vec3 surface_normal(const FaceGeometry& face, const Vec2& uv) {

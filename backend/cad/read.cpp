@@ -21,6 +21,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <mutex>
 #include <sstream>
 
@@ -32,11 +33,6 @@ namespace {
 
 // Largest and smallest size of a part that double precision and OCCT's absolute confusion of 1e-7 mm leave room for.
 constexpr double kLargest = 1e8, kSmallest = 1e-4;
-
-void silence_occt() {
-  static std::once_flag once;
-  std::call_once(once, [] { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); });
-}
 
 int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum avoid = TopAbs_SHAPE) {
   TopTools_IndexedMapOfShape map;
@@ -50,10 +46,25 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
+/// OCCT's readers keep settings and tables in globals, and some of them talk on std::cout: one at a time, in silence.
+class ReaderGuard {
+ public:
+  ReaderGuard() : lock_(mutex()), output_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
+  ~ReaderGuard() { std::cout.rdbuf(output_); }
+  ReaderGuard(const ReaderGuard&) = delete;
+  ReaderGuard& operator=(const ReaderGuard&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::streambuf* output_;
+};
+
 TopoDS_Shape read_step(const std::string& path) {
-  // The STEP translator keeps its settings and tables in globals.
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
+  const ReaderGuard guard;
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
   reader.TransferRoots();
@@ -62,7 +73,10 @@ TopoDS_Shape read_step(const std::string& path) {
 }
 
 TopoDS_Shape read_brep(std::istream& stream) {
+  const ReaderGuard guard;
   TopoDS_Shape shape;
+  // At the end of a text cut short OCCT would read on forever; an exception ends that.
+  stream.exceptions(std::ios::failbit | std::ios::badbit);
   BRepTools::Read(shape, stream, BRep_Builder());
   return shape;
 }
@@ -133,7 +147,6 @@ void validate_unguarded(const TopoDS_Shape& shape) {
 }  // namespace
 
 TopoDS_Shape read_shape(const std::string& path) {
-  silence_occt();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) throw InvalidInput(path + ": no such file");
   if (std::filesystem::file_size(path, error) == 0) throw InvalidInput(path + ": the file is empty");
@@ -148,11 +161,12 @@ TopoDS_Shape read_shape(const std::string& path) {
     return shape;
   } catch (const Standard_Failure&) {
     throw InvalidInput(path + ": OpenCASCADE cannot read the file");
+  } catch (const std::ios_base::failure&) {
+    throw InvalidInput(path + ": the file is cut short or damaged");
   }
 }
 
 TopoDS_Shape parse_brep(const std::string& text) {
-  silence_occt();
   try {
     std::istringstream stream(text);
     const TopoDS_Shape shape = read_brep(stream);
@@ -160,6 +174,8 @@ TopoDS_Shape parse_brep(const std::string& text) {
     return shape;
   } catch (const Standard_Failure&) {
     throw InvalidInput("OpenCASCADE cannot read the BREP shape");
+  } catch (const std::ios_base::failure&) {
+    throw InvalidInput("the BREP shape is cut short or damaged");
   }
 }
 

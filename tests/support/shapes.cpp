@@ -1,0 +1,185 @@
+#include "support/shapes.h"
+
+#include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepFilletAPI_MakeChamfer.hxx>
+#include <BRepFilletAPI_MakeFillet.hxx>
+#include <BRepOffsetAPI_ThruSections.hxx>
+#include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeSphere.hxx>
+#include <BRepPrimAPI_MakeTorus.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
+#include <TopoDS_Shell.hxx>
+#include <gp_Circ.hxx>
+#include <numbers>
+#include <sstream>
+
+namespace polycube::shapes {
+namespace {
+
+std::string text(const TopoDS_Shape& shape) {
+  std::ostringstream stream;
+  BRepTools::Write(shape, stream);
+  return stream.str();
+}
+
+TopoDS_Shape parse(const std::string& brep) {
+  std::istringstream stream(brep);
+  TopoDS_Shape shape;
+  BRepTools::Read(shape, stream, BRep_Builder());
+  return shape;
+}
+
+/// The solid inside a Boolean operation's compound, without the seams of faces that continue each other.
+TopoDS_Shape solid(const TopoDS_Shape& result) {
+  ShapeUpgrade_UnifySameDomain unify(result);
+  unify.Build();
+  return TopExp_Explorer(unify.Shape(), TopAbs_SOLID).Current();
+}
+
+TopoDS_Shape block(const gp_Pnt& from, const gp_Pnt& to) { return BRepPrimAPI_MakeBox(from, to).Shape(); }
+
+TopoDS_Face rectangle(double size, double lift) {
+  BRepBuilderAPI_MakePolygon polygon;
+  polygon.Add({0, 0, lift});
+  polygon.Add({size, 0, lift});
+  polygon.Add({size, size, lift});
+  polygon.Add({0, size, lift});
+  polygon.Close();
+  return BRepBuilderAPI_MakeFace(polygon.Wire()).Face();
+}
+
+TopoDS_Shell five_faces(double size) {
+  const TopoDS_Shape cube = block({0, 0, 0}, {size, size, size});
+  TopoDS_Shell shell;
+  const BRep_Builder builder;
+  builder.MakeShell(shell);
+  int count = 0;
+  for (TopExp_Explorer it(cube, TopAbs_FACE); it.More() && count < 5; it.Next(), ++count) builder.Add(shell, it.Current());
+  return shell;
+}
+
+}  // namespace
+
+std::string box(double x, double y, double z) { return text(block({0, 0, 0}, {x, y, z})); }
+std::string cylinder(double radius, double height) { return text(BRepPrimAPI_MakeCylinder(radius, height).Solid()); }
+std::string cone(double radius, double top_radius, double height) { return text(BRepPrimAPI_MakeCone(radius, top_radius, height).Solid()); }
+std::string sphere(double radius) { return text(BRepPrimAPI_MakeSphere(radius).Solid()); }
+std::string torus(double major, double minor) { return text(BRepPrimAPI_MakeTorus(major, minor).Solid()); }
+
+std::string plate_with_hole(double x, double y, double z, double radius) {
+  const gp_Ax2 axis({x / 2, y / 2, -z}, {0, 0, 1});
+  return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {x, y, z}), BRepPrimAPI_MakeCylinder(axis, radius, 3 * z).Shape()).Shape()));
+}
+
+std::string l_bracket(double leg, double thickness, double width) {
+  return text(solid(BRepAlgoAPI_Fuse(block({0, 0, 0}, {leg, width, thickness}), block({0, 0, 0}, {thickness, width, leg})).Shape()));
+}
+
+std::string notched_box(double size) {
+  return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {size, size, size}), block({size / 2, size / 2, size / 2}, {2 * size, 2 * size, 2 * size})).Shape()));
+}
+
+std::string filleted_box(double size, double radius) {
+  const TopoDS_Shape cube = block({0, 0, 0}, {size, size, size});
+  BRepFilletAPI_MakeFillet fillet(cube);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(cube, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) fillet.Add(radius, TopoDS::Edge(edges(i)));
+  return text(TopExp_Explorer(fillet.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string chamfered_box(double size, double leg) {
+  const TopoDS_Shape cube = block({0, 0, 0}, {size, size, size});
+  BRepFilletAPI_MakeChamfer chamfer(cube);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(cube, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    const gp_Pnt a = BRep_Tool::Pnt(TopExp::FirstVertex(edge)), b = BRep_Tool::Pnt(TopExp::LastVertex(edge));
+    if (a.X() == size && b.X() == size && a.Y() == size && b.Y() == size) chamfer.Add(leg, edge);
+  }
+  return text(TopExp_Explorer(chamfer.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string hollow_box(double size) {
+  const double low = 0.3 * size, high = 0.7 * size;
+  return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {size, size, size}), block({low, low, low}, {high, high, high})).Shape()));
+}
+
+std::string loft(double size, double height) {
+  BRepOffsetAPI_ThruSections sections(true, false);
+  BRepBuilderAPI_MakePolygon square;
+  square.Add({-size / 2, -size / 2, 0});
+  square.Add({size / 2, -size / 2, 0});
+  square.Add({size / 2, size / 2, 0});
+  square.Add({-size / 2, size / 2, 0});
+  square.Close();
+  sections.AddWire(square.Wire());
+  BRepBuilderAPI_MakeWire circle;
+  const gp_Circ curve(gp_Ax2({0, 0, height}, {0, 0, 1}), size / 3);
+  for (int k = 0; k < 4; ++k)
+    circle.Add(BRepBuilderAPI_MakeEdge(curve, (k - 2.5) * std::numbers::pi / 2, (k - 1.5) * std::numbers::pi / 2).Edge());
+  sections.AddWire(circle.Wire());
+  return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string half_cylinder(double radius, double height) {
+  const TopoDS_Shape tool = block({-2 * radius, -2 * radius, -height}, {2 * radius, 0, 2 * height});
+  return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), tool).Shape()));
+}
+
+std::string moved(const std::string& brep, double degrees, double x, double y, double z) {
+  gp_Trsf turn, shift;
+  turn.SetRotation(gp_Ax1({0, 0, 0}, {1, 2, 3}), degrees * std::numbers::pi / 180);
+  shift.SetTranslation({x, y, z});
+  return text(BRepBuilderAPI_Transform(parse(brep), shift * turn, true).Shape());
+}
+
+std::string scaled(const std::string& brep, double factor) {
+  gp_Trsf scale;
+  scale.SetScale({0, 0, 0}, factor);
+  return text(BRepBuilderAPI_Transform(parse(brep), scale, true).Shape());
+}
+
+std::string compound(const std::string& a, const std::string& b) {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  builder.Add(result, parse(a));
+  builder.Add(result, parse(b));
+  return text(result);
+}
+
+std::string open_box(double size) { return text(five_faces(size)); }
+std::string open_solid(double size) { return text(BRepBuilderAPI_MakeSolid(five_faces(size)).Solid()); }
+std::string loose_face(double size) { return text(rectangle(size, 0)); }
+
+std::string flat_solid(double size) {
+  const TopoDS_Shape face = rectangle(size, 0);
+  TopoDS_Shell shell;
+  const BRep_Builder builder;
+  builder.MakeShell(shell);
+  builder.Add(shell, face);
+  builder.Add(shell, face.Reversed());
+  return text(BRepBuilderAPI_MakeSolid(shell).Solid());
+}
+
+}  // namespace polycube::shapes

@@ -1,0 +1,35 @@
+// Small solids for tests, made by OCCT, as BREP text for CadModel::from_brep. Lengths in mm.
+#pragma once
+
+#include <string>
+
+namespace polycube::shapes {
+
+std::string box(double x, double y, double z);                      ///< a corner at the origin
+std::string cylinder(double radius, double height);                 ///< about +Z from the origin
+std::string cone(double radius, double top_radius, double height);  ///< top_radius 0: with its tip
+std::string sphere(double radius);                                  ///< centre at the origin
+std::string torus(double major, double minor);                      ///< about +Z, centre at the origin
+std::string plate_with_hole(double x, double y, double z, double radius);  ///< box with a through bore along Z in its middle
+std::string l_bracket(double leg, double thickness, double width);  ///< L in the XZ plane, extruded along Y; one concave edge
+std::string notched_box(double size);                               ///< cube minus a corner cube of half its size
+std::string filleted_box(double size, double radius);               ///< cube with all twelve edges rounded
+std::string chamfered_box(double size, double leg);                 ///< cube with one edge along Z cut at 45 degrees
+std::string hollow_box(double size);                                ///< cube with a cubic void: two shells
+std::string loft(double size, double height);                       ///< square to circle: ruled B-spline sides
+std::string half_cylinder(double radius, double height);            ///< cut by the plane y = 0, y >= 0 stays
+
+/// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).
+std::string moved(const std::string& brep, double degrees, double x, double y, double z);
+/// Scaled about the origin.
+std::string scaled(const std::string& brep, double factor);
+/// One compound of both.
+std::string compound(const std::string& a, const std::string& b);
+
+/// Not solids, for refusals.
+std::string open_box(double size);   ///< shell of five faces
+std::string open_solid(double size); ///< a solid of that shell
+std::string loose_face(double size);
+std::string flat_solid(double size); ///< a solid whose faces all lie in one plane
+
+}  // namespace polycube::shapes

@@ -22,18 +22,19 @@
 #include "cad/cad.h"
 #include "core/hexahedron.h"
 #include "core/mesh.h"
+#include "support/shapes.h"
 
 namespace polycube::testing {
 
-inline CadModel model_of(const TopoDS_Shape& shape) {
+inline std::string brep_of(const TopoDS_Shape& shape) {
   std::ostringstream text;
   BRepTools::Write(shape, text);
-  return CadModel::from_brep(text.str());
+  return text.str();
 }
 
 /// A mesh made for a solid: hexes on grid cells, nodes placed by a map of the grid's integer coordinates.
 struct Grid {
-  TopoDS_Shape shape;
+  std::string brep;
   HexMesh mesh;
   Association association;
 };
@@ -142,10 +143,14 @@ inline Association associate_by_geometry(const CadModel& model, const HexMesh& m
   return a;
 }
 
-inline Grid make_grid(const TopoDS_Shape& shape, const std::array<int, 3>& size, const Occupied& occupied, const Place& place) {
-  Grid grid{shape, grid_mesh(size, occupied, place), {}};
-  grid.association = associate_by_geometry(model_of(shape), grid.mesh);
+inline Grid make_grid(const std::string& brep, const std::array<int, 3>& size, const Occupied& occupied, const Place& place) {
+  Grid grid{brep, grid_mesh(size, occupied, place), {}};
+  grid.association = associate_by_geometry(CadModel::from_brep(brep), grid.mesh);
   return grid;
+}
+
+inline Grid make_grid(const TopoDS_Shape& shape, const std::array<int, 3>& size, const Occupied& occupied, const Place& place) {
+  return make_grid(brep_of(shape), size, occupied, place);
 }
 
 inline bool everywhere(int, int, int) { return true; }
@@ -199,6 +204,14 @@ inline Grid plate_grid(int n = 4) {
         p = (1 - onto) * p + onto * p * longest / p.norm();
         return {p[0] + 2, p[1] + 2, x[2] / (n / 2)};
       });
+}
+
+/// Cube of edge 4 with all edges rounded by radius 1, n cells an edge, n a multiple of 4.
+inline Grid filleted_grid(int n = 8) {
+  return make_grid(shapes::filleted_box(4, 1), {n, n, n}, everywhere, [=](const Vec3& x) -> Vec3 {
+    const Vec3 p = 4.0 / n * x, core = p.cwiseMax(1).cwiseMin(3), d = p - core;
+    return d.norm() > 0 ? Vec3(core + d * d.cwiseAbs().maxCoeff() / d.norm()) : p;
+  });
 }
 
 /// Cylinder of radius 1 and height 1 on a plate 4 x 4 x 1: a smooth boss.

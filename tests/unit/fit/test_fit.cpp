@@ -2,8 +2,10 @@
 
 #include <random>
 
+#include "core/error.h"
 #include "core/quality.h"
 #include "fit/fit.h"
+#include "pad/pad.h"
 #include "support/grids.h"
 
 namespace polycube {
@@ -32,10 +34,11 @@ void shake(HexMesh& mesh, double size) {
   }
 }
 
+PaddedMesh padded(const Grid& grid) { return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{}); }
+
 struct Case {
   const char* name;
-  Grid (*make)(int);
-  int cells;
+  Grid (*make)();
   double min_quality, mean_quality;
 };
 
@@ -43,21 +46,78 @@ class FitShapes : public ::testing::TestWithParam<Case> {};
 
 TEST_P(FitShapes, UntanglesAShakenMeshOntoTheCad) {
   const Case& c = GetParam();
-  Grid grid = c.make(c.cells);
-  const CadModel model = model_of(grid.shape);
-  shake(grid.mesh, 0.15);
-  ASSERT_GT(summarise(grid.mesh).inverted, 0);
-  const FitReport report = fit(model, grid.mesh, grid.association, {}, Monitor{});
+  const Grid grid = c.make();
+  const CadModel model = CadModel::from_brep(grid.brep);
+  PaddedMesh p = padded(grid);
+  shake(p.mesh, 0.1);
+  ASSERT_GT(summarise(p.mesh).inverted, 0);
+  const FitReport report = fit(model, p.mesh, p.association, {}, Monitor{});
   EXPECT_EQ(report.inverted, 0);
+  EXPECT_TRUE(report.bad_faces.empty());
   EXPECT_GE(report.min_scaled_jacobian, c.min_quality);
   EXPECT_GE(report.mean_scaled_jacobian, c.mean_quality);
-  EXPECT_LE(distance_to_cad(model, grid.mesh, grid.association), 1e-9 * model.diagonal());
-  EXPECT_DOUBLE_EQ(summarise(grid.mesh).min_scaled_jacobian, report.min_scaled_jacobian);
+  EXPECT_LE(distance_to_cad(model, p.mesh, p.association), 1e-9 * model.diagonal());
+  EXPECT_LE(report.max_off, 1e-9 * model.diagonal());
+  EXPECT_DOUBLE_EQ(summarise(p.mesh).min_scaled_jacobian, report.min_scaled_jacobian);
 }
 
 INSTANTIATE_TEST_SUITE_P(Grids, FitShapes,
-                         ::testing::Values(Case{"box", box_grid, 4, 0.95, 0.99}, Case{"l", l_grid, 4, 0.9, 0.98}, Case{"plate", plate_grid, 6, 0.6, 0.9}),
+                         ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
+                                           Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97},
+                                           Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95},
+                                           Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9}, Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94},
+                                           Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
+                                           Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
                          [](const auto& tested) { return tested.param.name; });
+
+TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
+  const Grid grid = filleted_grid(12);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  PaddedMesh p = padded(grid);
+  shake(p.mesh, 0.05);
+  HexMesh one = p.mesh, three = p.mesh;
+  FitOptions options;
+  options.max_rounds = 5;
+  options.threads = 1;
+  fit(model, one, p.association, options, Monitor{});
+  options.threads = 3;
+  fit(model, three, p.association, options, Monitor{});
+  for (std::size_t v = 0; v < one.points.size(); ++v) ASSERT_EQ(one.points[v], three.points[v]) << v;
+}
+
+TEST(Fit, FollowsARigidMotionAndAScale) {
+  const Grid grid = cylinder_grid(4);
+  PaddedMesh p = padded(grid);
+  HexMesh plain = p.mesh, moved = p.mesh;
+  const double factor = 25;
+  const Eigen::AngleAxisd turn(40 * std::numbers::pi / 180, Vec3(1, 2, 3).normalized());
+  const Vec3 shift(300, -20, 7);
+  for (Vec3& x : moved.points) x = turn * (factor * x) + shift;
+  const CadModel model = CadModel::from_brep(grid.brep);
+  const CadModel moved_model = CadModel::from_brep(shapes::moved(shapes::scaled(grid.brep, factor), 40, shift[0], shift[1], shift[2]));
+  const FitReport first = fit(model, plain, p.association, {}, Monitor{});
+  const FitReport second = fit(moved_model, moved, p.association, {}, Monitor{});
+  EXPECT_EQ(second.inverted, 0);
+  EXPECT_NEAR(first.min_scaled_jacobian, second.min_scaled_jacobian, 0.02);
+  EXPECT_NEAR(first.mean_scaled_jacobian, second.mean_scaled_jacobian, 0.005);
+}
+
+// A cylinder without layers has cells that span 180 degrees of the surface: nothing can make them good, and the report says so honestly.
+TEST(Fit, ReportsWhatItCannotMend) {
+  Grid grid = cylinder_grid(16);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  const FitReport report = fit(model, grid.mesh, grid.association, {}, Monitor{});
+  EXPECT_LT(report.min_scaled_jacobian, 0.4);
+  EXPECT_DOUBLE_EQ(summarise(grid.mesh).min_scaled_jacobian, report.min_scaled_jacobian);
+  EXPECT_EQ(summarise(grid.mesh).inverted, report.inverted);
+}
+
+TEST(Fit, StopsWhenCancelled) {
+  Grid grid = box_grid(4);
+  Monitor monitor;
+  monitor.cancel();
+  EXPECT_THROW(fit(CadModel::from_brep(grid.brep), grid.mesh, grid.association, {}, monitor), Cancelled);
+}
 
 }  // namespace
 }  // namespace polycube

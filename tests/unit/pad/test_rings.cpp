@@ -17,7 +17,7 @@ double worst_sector(const CadModel& model, const HexMesh& mesh, const Associatio
 
 TEST(PadRings, GivesEveryNodeOfAnImprintedCircleTwoQuadsASide) {
   const Grid grid = imprint_grid();
-  const CadModel model = model_of(grid.shape);
+  const CadModel model = CadModel::from_brep(grid.brep);
   ASSERT_EQ(check(grid.mesh, grid.association), std::vector<std::string>{});
   ASSERT_GE(worst_sector(model, grid.mesh, grid.association), 1000);
   PadReport report;
@@ -31,7 +31,7 @@ TEST(PadRings, GivesEveryNodeOfAnImprintedCircleTwoQuadsASide) {
 
 TEST(PadRings, SectorsOfABoxAreRightAngles) {
   const Grid grid = box_grid(2);
-  const CadModel model = model_of(grid.shape);
+  const CadModel model = CadModel::from_brep(grid.brep);
   int corners = 0;
   for (const Sector& s : find_sectors(model, grid.mesh, grid.association, std::vector<char>(grid.mesh.points.size(), 1))) {
     const int dim = grid.association.point_cad[s.node].dim;
@@ -44,7 +44,7 @@ TEST(PadRings, SectorsOfABoxAreRightAngles) {
 
 TEST(PadRings, AReentrantCornerHasThreeQuarters) {
   const Grid grid = l_grid(2);
-  const CadModel model = model_of(grid.shape);
+  const CadModel model = CadModel::from_brep(grid.brep);
   int reentrant = 0;
   for (const Sector& s : find_sectors(model, grid.mesh, grid.association, std::vector<char>(grid.mesh.points.size(), 1))) {
     if (s.quads != 3) continue;

@@ -9,7 +9,7 @@ namespace {
 using namespace testing;
 
 PaddedMesh padded(const Grid& grid, PadReport& report) {
-  const CadModel model = model_of(grid.shape);
+  const CadModel model = CadModel::from_brep(grid.brep);
   EXPECT_EQ(check(grid.mesh, grid.association), std::vector<std::string>{});
   const PaddedMesh result = pad(model, grid.mesh, grid.association, Monitor{}, &report);
   EXPECT_EQ(check(result.mesh, result.association), std::vector<std::string>{});

@@ -60,6 +60,16 @@ WorkerSetting setting_of(const Rung& rung, const CadModel& model, const TetOptio
   return setting;
 }
 
+RawMesh attempt(const std::vector<std::string>& command, const std::string& errors, double seconds, const Monitor& monitor) {
+  const std::string problem = run_worker(command, errors, seconds, monitor);
+  if (!problem.empty()) throw Unusable(problem);
+  try {
+    return read_raw(command.back());
+  } catch (const std::runtime_error& error) {
+    throw Unusable(error.what());
+  }
+}
+
 }  // namespace
 
 TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const Monitor& monitor) {
@@ -77,9 +87,7 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
       write_setting(setting_of(rung, model, options), setting);
       std::error_code ignored;
       std::filesystem::remove(result, ignored);
-      const std::string problem = run_worker({worker, part, setting, result}, errors, options.attempt_limit, monitor);
-      if (!problem.empty()) throw Unusable(problem);
-      TetMesh mesh = classify(read_raw(result), model);
+      TetMesh mesh = classify(attempt({worker, part, setting, result}, errors, options.attempt_limit, monitor), model);
       check_complete(mesh, model);
       split_for_map(mesh, model, monitor);
       if (const std::vector<std::string> problems = check(mesh); !problems.empty()) throw Unusable(problems.front());

@@ -22,7 +22,7 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type);
 std::string unv_text(const FemMesh& mesh);
 std::string vtu_text(const FemMesh& mesh);
 std::string medit_text(const FemMesh& mesh);
-/// Through libmed, which writes files itself. Throws std::runtime_error where it fails.
-void write_med(const FemMesh& mesh, const std::string& path);
+/// Through libmed, which writes files itself. FreeCAD reads the mesh only under the name of its file. Throws std::runtime_error where it fails.
+void write_med(const FemMesh& mesh, const std::string& path, const std::string& mesh_name);
 
 }  // namespace polycube

@@ -10,15 +10,14 @@
 namespace polycube {
 namespace {
 
-constexpr const char* kMesh = "Polycube";
-
 void require(med_err status, const char* what) {
   if (status < 0) throw std::runtime_error(std::string("libmed cannot write ") + what);
 }
 
+/// The file and the one mesh in it.
 class File {
  public:
-  explicit File(const std::string& path) : id_(MEDfileOpen(path.c_str(), MED_ACC_CREAT)) {
+  File(const std::string& path, const std::string& mesh_name) : id_(MEDfileOpen(path.c_str(), MED_ACC_CREAT)), mesh_(mesh_name, 0, MED_NAME_SIZE) {
     if (id_ < 0) throw std::runtime_error("libmed cannot open the file");
   }
   File(const File&) = delete;
@@ -32,9 +31,11 @@ class File {
     require(MEDfileClose(id), "the end of the file");
   }
   med_idt id() const { return id_; }
+  const char* mesh() const { return mesh_.c_str(); }
 
  private:
   med_idt id_;
+  std::string mesh_;
 };
 
 /// libmed takes names of fixed width one after the other.
@@ -50,7 +51,7 @@ std::string padded(const std::vector<std::string>& names, std::size_t width) {
 void create_family(const File& file, med_int number, const std::vector<std::string>& groups) {
   const std::string name = number == 0 ? "FAMILLE_ZERO" : "FAM_" + std::to_string(number);
   const std::string text = padded(groups, MED_LNAME_SIZE);
-  require(MEDfamilyCr(file.id(), kMesh, name.c_str(), number, static_cast<med_int>(groups.size()), text.c_str()), "a family");
+  require(MEDfamilyCr(file.id(), file.mesh(), name.c_str(), number, static_cast<med_int>(groups.size()), text.c_str()), "a family");
 }
 
 /// Every node belongs to one family: the set of groups it is in.
@@ -86,17 +87,17 @@ std::vector<med_int> create_element_families(const File& file, const FemMesh& me
 void write_cells(const File& file, med_geometry_type type, const std::vector<med_int>& nodes, const std::vector<med_int>& families) {
   const auto count = static_cast<med_int>(families.size());
   if (count == 0) return;
-  require(MEDmeshElementConnectivityWr(file.id(), kMesh, MED_NO_DT, MED_NO_IT, 0, MED_CELL, type, MED_NODAL, MED_FULL_INTERLACE, count, nodes.data()),
+  require(MEDmeshElementConnectivityWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, 0, MED_CELL, type, MED_NODAL, MED_FULL_INTERLACE, count, nodes.data()),
           "elements");
-  require(MEDmeshEntityFamilyNumberWr(file.id(), kMesh, MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()), "families of elements");
+  require(MEDmeshEntityFamilyNumberWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, MED_CELL, type, count, families.data()), "families of elements");
 }
 
 }  // namespace
 
-void write_med(const FemMesh& mesh, const std::string& path) {
-  File file(path);
+void write_med(const FemMesh& mesh, const std::string& path, const std::string& mesh_name) {
+  File file(path, mesh_name);
   const std::string axes = padded({"x", "y", "z"}, MED_SNAME_SIZE), units = padded({"mm", "mm", "mm"}, MED_SNAME_SIZE);
-  require(MEDmeshCr(file.id(), kMesh, 3, 3, MED_UNSTRUCTURED_MESH, "Hexahedral mesh by Polycube", "", MED_SORT_DTIT, MED_CARTESIAN, axes.c_str(),
+  require(MEDmeshCr(file.id(), file.mesh(), 3, 3, MED_UNSTRUCTURED_MESH, "Hexahedral mesh by Polycube", "", MED_SORT_DTIT, MED_CARTESIAN, axes.c_str(),
                     units.c_str()),
           "the mesh");
   create_family(file, 0, {});
@@ -104,9 +105,9 @@ void write_med(const FemMesh& mesh, const std::string& path) {
   std::vector<double> coordinates;
   for (const Vec3& p : mesh.points) coordinates.insert(coordinates.end(), {p[0], p[1], p[2]});
   const auto node_count = static_cast<med_int>(mesh.points.size());
-  require(MEDmeshNodeCoordinateWr(file.id(), kMesh, MED_NO_DT, MED_NO_IT, 0, MED_FULL_INTERLACE, node_count, coordinates.data()), "nodes");
+  require(MEDmeshNodeCoordinateWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, 0, MED_FULL_INTERLACE, node_count, coordinates.data()), "nodes");
   const auto node_families = create_node_families(file, mesh);
-  require(MEDmeshEntityFamilyNumberWr(file.id(), kMesh, MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, node_count, node_families.data()),
+  require(MEDmeshEntityFamilyNumberWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, node_count, node_families.data()),
           "families of nodes");
 
   std::vector<med_int> nodes;

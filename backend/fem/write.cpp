@@ -59,7 +59,7 @@ void write(const FemMesh& mesh, const std::string& path, const std::string& elem
     case Format::kMed:
       try {
         Draft draft(path);
-        write_med(mesh, draft.path());
+        write_med(mesh, draft.path(), std::filesystem::path(path).stem().string());
         draft.publish();
       } catch (const std::exception& e) {
         throw InvalidInput(path + " cannot be written: " + e.what());

@@ -165,8 +165,9 @@ class Fitting {
     int failures = 0;
     for (int round = 0; round < options_.max_rounds && failures < 4 && score_.worst < goal(); ++round) {
       restore();
-      const Region region = around(std::min(goal(), score_.worst + 0.15), 2 + failures);
-      failures = square_up(region, 4 << std::min(failures, 2), 30) ? 0 : failures + 1;
+      const double before = score_.worst;
+      square_up(around(std::min(goal(), before + 0.15), 2 + failures), 4 << std::min(failures, 2), 30);
+      failures = score_.worst > before + 0.005 ? 0 : failures + 1;
     }
   }
 

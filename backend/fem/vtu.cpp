@@ -25,9 +25,9 @@ std::string base64(std::span<const unsigned char> bytes) {
 }
 
 template <typename T>
-void append_array(std::string& text, const char* type, const char* name, int components, const std::vector<T>& values) {
+void append_array(std::string& text, const char* type, const char* attributes, const std::vector<T>& values) {
   const std::uint64_t bytes = values.size() * sizeof(T);
-  append(text, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"binary\">\n", type, name, components);
+  append(text, "<DataArray type=\"%s\" %s format=\"binary\">\n", type, attributes);
   // VTK decodes the length and the data as two runs of base64.
   text += base64({reinterpret_cast<const unsigned char*>(&bytes), sizeof bytes});
   text += base64({reinterpret_cast<const unsigned char*>(values.data()), bytes});
@@ -63,14 +63,14 @@ std::string vtu_text(const FemMesh& mesh) {
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
       "<UnstructuredGrid>\n";
   append(text, "<Piece NumberOfPoints=\"%zu\" NumberOfCells=\"%zu\">\n<Points>\n", mesh.points.size(), types.size());
-  append_array(text, "Float64", "Points", 3, points);
+  append_array(text, "Float64", "Name=\"Points\" NumberOfComponents=\"3\"", points);
   text += "</Points>\n<Cells>\n";
-  append_array(text, "Int64", "connectivity", 1, connectivity);
-  append_array(text, "Int64", "offsets", 1, offsets);
-  append_array(text, "UInt8", "types", 1, types);
+  append_array(text, "Int64", "Name=\"connectivity\"", connectivity);
+  append_array(text, "Int64", "Name=\"offsets\"", offsets);
+  append_array(text, "UInt8", "Name=\"types\"", types);
   text += "</Cells>\n<CellData>\n";
-  append_array(text, "Float64", "ScaledJacobian", 1, quality);
-  append_array(text, "Int32", "CadFace", 1, faces);
+  append_array(text, "Float64", "Name=\"ScaledJacobian\"", quality);
+  append_array(text, "Int32", "Name=\"CadFace\"", faces);
   text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text;
 }

@@ -1,0 +1,49 @@
+"""What the Python tests share: the build under test and small parts made by FreeCAD's Part module."""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BUILD = os.environ.get("POLYCUBE_BUILD", os.path.join(REPO, "build"))
+PROGRAM = os.path.join(BUILD, "polycube")
+sys.path.insert(0, os.path.join(BUILD, "python"))
+sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
+
+import FreeCAD  # noqa: E402
+import Part  # noqa: E402
+
+VECTOR = FreeCAD.Vector
+
+
+def box():
+    return Part.makeBox(8, 2, 2)
+
+
+def cylinder():
+    return Part.makeCylinder(5, 10)
+
+
+def plate():
+    return Part.makeBox(20, 16, 4).cut(Part.makeCylinder(4, 4, VECTOR(10, 8, 0)))
+
+
+class FolderTest(unittest.TestCase):
+    """A test with a folder of its own, self.path(name)."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def save(self, shape, name="part.brep"):
+        shape.exportBrep(self.path(name))
+        return self.path(name)
+
+    def run_program(self, *arguments, **settings):
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300, **settings)

@@ -1,0 +1,154 @@
+"""The compiled module by itself, in plain Python."""
+
+import math
+import pickle
+import unittest
+
+import numpy as np
+from support import FolderTest, box, cylinder, plate
+
+import _polycube
+
+CORNER_EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+class Options(unittest.TestCase):
+    def test_table_is_complete(self):
+        table = {option["name"]: option for option in _polycube.options()}
+        self.assertLessEqual({"size", "hexes", "coarsest", "order", "time_limit", "element_type", "labels", "threads"}, set(table))
+        for option in table.values():
+            self.assertEqual(set(option), {"name", "unit", "meaning", "type", "default", "min", "max", "choices", "advanced"})
+            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels"))
+        self.assertEqual(table["order"]["default"], 2)
+
+    def test_bad_options_are_named(self):
+        text = box().exportBrepToString()
+        for bad in ({"size": 0}, {"size": -1}, {"size": math.nan}, {"size": math.inf}, {"size": 1e9}, {"size": "x"}, {"hexes": 2.5}, {"order": 3},
+                    {"element_type": "C3D10"}, {"labels": {"Face1": "up"}}, {"labels": {7: "+X"}}, {"time_limit": -1}, {"threads": -1}):
+            with self.subTest(bad), self.assertRaises(_polycube.InvalidInput) as caught:
+                _polycube.mesh(brep=text, **bad)
+            self.assertNotIn("\n", str(caught.exception))
+            self.assertIn("--" + next(iter(bad)).replace("_", "-"), str(caught.exception))
+        for bad in ({"colour": 1}, {}):
+            with self.subTest(bad), self.assertRaises(ValueError):
+                _polycube.mesh(path="a.step", brep=text, **bad)
+
+    def test_none_is_the_default(self):
+        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2, order=None, labels=None)
+        self.assertEqual(mesh.order, 2)
+
+
+class Mesh(FolderTest):
+    def test_arrays_of_a_box(self):
+        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=1, order=1)
+        self.assertEqual(mesh.hexes.shape, (32, 8))
+        self.assertEqual(mesh.nodes.shape, (9 * 3 * 3, 3))
+        self.assertEqual(mesh.quads.shape, (8 + 64, 4))
+        self.assertEqual(mesh.report["counts"]["hexes"], 32)
+        np.testing.assert_allclose(mesh.scaled_jacobian, 1)
+        self.assertEqual({name for name in mesh.groups if name.startswith("Face")}, {f"Face{i}" for i in range(1, 7)})
+        for i, face in enumerate(box().Faces, 1):
+            nodes = mesh.nodes[mesh.groups[f"Face{i}"]["nodes"]]
+            bounds = face.BoundBox
+            np.testing.assert_allclose(nodes.min(axis=0), (bounds.XMin, bounds.YMin, bounds.ZMin), atol=1e-6)
+            np.testing.assert_allclose(nodes.max(axis=0), (bounds.XMax, bounds.YMax, bounds.ZMax), atol=1e-6)
+
+    def test_second_order_nodes_are_on_the_cylinder(self):
+        mesh = _polycube.mesh(brep=cylinder().exportBrepToString(), size=2.5, order=2)
+        self.assertEqual(mesh.hexes.shape[1], 20)
+        wall = [f"Face{i}" for i, face in enumerate(cylinder().Faces, 1) if face.Surface.TypeId == "Part::GeomCylinder"]
+        nodes = mesh.nodes[mesh.groups[wall[0]]["nodes"]]
+        np.testing.assert_allclose(np.hypot(nodes[:, 0], nodes[:, 1]), 5, atol=1e-7)
+        inner = np.setdiff1d(np.arange(len(mesh.nodes)), mesh.quads)
+        middles = {int(row[8 + k]): (row[a], row[b]) for row in mesh.hexes for k, (a, b) in enumerate(CORNER_EDGES)}
+        for node in inner:
+            if int(node) in middles:
+                a, b = middles[int(node)]
+                np.testing.assert_allclose(mesh.nodes[node], (mesh.nodes[a] + mesh.nodes[b]) / 2, atol=1e-12)
+
+    def test_quads_know_their_cells(self):
+        mesh = _polycube.mesh(brep=plate().exportBrepToString(), size=3, order=1)
+        faces = np.array([[0, 1, 2, 3], [4, 7, 6, 5], [0, 4, 5, 1], [1, 5, 6, 2], [2, 6, 7, 3], [3, 7, 4, 0]])
+        for quad, (cell, side) in zip(mesh.quads, mesh.quad_hex):
+            self.assertEqual(set(quad), set(mesh.hexes[cell][faces[side]]))
+        p = mesh.nodes[mesh.quads]
+        areas = np.linalg.norm(np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 1]), axis=1) / 2
+        for i, face in enumerate(plate().Faces, 1):
+            self.assertAlmostEqual(areas[mesh.quad_face == i].sum() / face.Area, 1, delta=0.03)
+
+    def test_same_mesh_at_any_thread_count(self):
+        text = plate().exportBrepToString()
+        one, two = (_polycube.mesh(brep=text, size=3, threads=n) for n in (1, 2))
+        np.testing.assert_array_equal(one.nodes, two.nodes)
+        np.testing.assert_array_equal(one.hexes, two.hexes)
+
+    def test_dict_survives_pickling(self):
+        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2)
+        again = pickle.loads(pickle.dumps(mesh.to_dict()))
+        np.testing.assert_array_equal(again["nodes"], mesh.nodes)
+        self.assertEqual(again["report"]["version"], _polycube.__version__)
+        self.assertEqual(set(again), {"order", "nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "groups", "scaled_jacobian", "report"})
+
+    def test_smesh_order_mirrors(self):
+        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2)
+        x = mesh.nodes[mesh.hexes[0][_polycube.SMESH_HEX20]]
+        self.assertLess(np.dot(np.cross(x[1] - x[0], x[3] - x[0]), x[4] - x[0]), 0)
+        for k, (a, b) in enumerate(CORNER_EDGES):
+            np.testing.assert_allclose(x[8 + k], (x[a] + x[b]) / 2, atol=1e-12)
+        np.testing.assert_array_equal(_polycube.SMESH_HEX8, _polycube.SMESH_HEX20[:8])
+
+    def test_bad_shapes(self):
+        with open(self.path("text.step"), "w") as file:
+            file.write("not a step file\n")
+        for path in (self.path("text.step"), self.path("missing.step")):
+            with self.subTest(path), self.assertRaises(_polycube.InvalidInput):
+                _polycube.mesh(path=path)
+        for text in ("", "nonsense", box().Faces[0].exportBrepToString()):
+            with self.subTest(text[:10]), self.assertRaises(_polycube.InvalidInput):
+                _polycube.mesh(brep=text)
+
+
+class Callbacks(unittest.TestCase):
+    text = cylinder().exportBrepToString()
+
+    def test_progress_names_every_stage_in_order(self):
+        seen = []
+        _polycube.mesh(brep=self.text, size=2.5, progress=lambda stage, fraction: seen.append((stage, fraction)))
+        order = ["tet", "label", "deform", "blocks", "quantize", "hex", "pad", "fit", "fem"]
+        first = [next(i for i, (stage, _) in enumerate(seen) if stage == name) for name in order]
+        self.assertEqual(first, sorted(first))
+        self.assertTrue(all(0 <= fraction <= 1 for _, fraction in seen))
+
+    def test_log_gets_lines(self):
+        lines = []
+        _polycube.mesh(brep=self.text, size=2.5, log=lines.append)
+        self.assertGreater(len(lines), 3)
+        self.assertFalse([line for line in lines if "\n" in line])
+
+    def test_cancel(self):
+        with self.assertRaises(_polycube.Cancelled):
+            _polycube.mesh(brep=self.text, cancel=lambda: True)
+
+    def test_time_limit(self):
+        with self.assertRaises(_polycube.Cancelled):
+            _polycube.mesh(brep=self.text, time_limit=0.01)
+
+    def test_exceptions_come_through(self):
+        def fail(*_):
+            raise KeyError("mine")
+
+        for callback in ("progress", "log", "cancel"):
+            with self.subTest(callback), self.assertRaises(KeyError):
+                _polycube.mesh(brep=self.text, **{callback: fail})
+
+
+class Labels(unittest.TestCase):
+    def test_box_faces_get_six_labels(self):
+        labels = _polycube.labels(brep=box().exportBrepToString())
+        self.assertEqual(sorted(labels["face_label"].values()), [0, 1, 2, 3, 4, 5])
+        self.assertEqual(len(labels["label"]), len(labels["triangles"]))
+        np.testing.assert_allclose(labels["frame"] @ labels["frame"].T, np.eye(3), atol=1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()

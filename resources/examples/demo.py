@@ -1,6 +1,6 @@
 """The demo, run by resources/demo inside FreeCAD: mesh a bracket, solve it with CalculiX, take pictures.
 
-The bottom is fixed; the two upper bores carry 4 kN pulling away from the wall, the wall's top 2 MPa. Lines for the user go to descriptor 3.
+The bottom is fixed; the two upper bores carry 4 kN towards the front, the top of the wall 2 MPa. Lines for the user go to descriptor 3.
 """
 
 import json
@@ -20,7 +20,7 @@ import bracket  # noqa: E402  (beside this file)
 from freecad import polycube  # noqa: E402
 
 OUT = os.environ["POLYCUBE_DEMO_OUT"]
-SIZE, FORCE, PRESSURE = 4.0, 4000.0, 2.0  # mm, N, MPa
+SIZE, FORCE, PRESSURE = 3.0, 4000.0, 2.0  # mm, N, MPa
 
 
 def say(text):

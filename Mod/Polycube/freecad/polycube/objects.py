@@ -9,6 +9,8 @@ from .errors import InvalidInput
 
 EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
 
+#: FreeCAD 1.x, 0.20
+_TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")
 #: type, name, group, meaning; all written by the mesher, none by the user
 _RESULTS = [
     ("App::PropertyString", "MeshState", "Polycube Result", "Whether the mesh fits shape and options; recompute marks it, Apply meshes"),
@@ -26,14 +28,8 @@ _HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
 
 def make(document, part, name="PolycubeMesh"):
     """A new mesh object without cells, linked to the document object `part`."""
-    for kind in ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython"):
-        try:
-            obj = document.addObject(kind, name)
-            break
-        except Exception as error:  # FreeCAD 0.20 does not have the first; its error is no Python class of its own
-            if kind == "Fem::FemMeshObjectPython":
-                raise
-            del error
+    known = document.supportedTypes()
+    obj = document.addObject(next(kind for kind in _TYPES if kind in known), name)
     PolycubeMesh(obj)
     set_part(obj, part)
     if FreeCAD.GuiUp:
@@ -127,13 +123,10 @@ class PolycubeMesh:
             obj.MeshState = now
 
     def onChanged(self, obj, name):
-        if name not in self._inputs(obj) or "Restore" in obj.State or not hasattr(obj, "MeshedShape"):
+        if "Restore" in obj.State or not hasattr(obj, "MeshedShape"):
             return
-        self.execute(obj)
-
-    @staticmethod
-    def _inputs(obj):
-        return ["Part", "Shape"] + [option_table.property_name(option) for option in option_table.document_options()]
+        if name in ("Part", "Shape") or name in map(option_table.property_name, option_table.document_options()):
+            self.execute(obj)
 
     def onDocumentRestored(self, obj):
         try:

@@ -15,6 +15,11 @@ from .histogram import Histogram
 _TITLE = "Hexahedral mesh"
 
 
+def _number(flag):
+    """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
+    return int(getattr(flag, "value", flag))
+
+
 class MeshPanel:
     """Apply runs the mesher, Cancel stops it, OK is refused while it runs.
 
@@ -49,10 +54,10 @@ class MeshPanel:
     # --- what FreeCAD calls -------------------------------------------------------------------------------------------------
 
     def getStandardButtons(self):
-        return int(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
+        return _number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
 
     def clicked(self, button):
-        if button == int(QtGui.QDialogButtonBox.Apply):
+        if _number(button) == _number(QtGui.QDialogButtonBox.Apply):
             self.apply()
 
     def accept(self):
@@ -240,8 +245,10 @@ class MeshPanel:
         report = json.loads(self.obj.Report)
         quality, captured = report["quality"], report["cad"]
         self.histogram.set_counts(quality["histogram"])
+        outdated = self.obj.MeshState == objects.OUTDATED
         self.form.summary.setText(
-            "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nOf the CAD model: {}".format(
+            ("The mesh is out of date: press Apply.\n" if outdated else "")
+            + "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nOf the CAD model: {}".format(
                 self.obj.Hexahedra,
                 self.obj.NodeCount,
                 quality["min_scaled_jacobian"],

@@ -1,0 +1,166 @@
+"""The house rules that a machine can check."""
+
+import os
+import re
+import subprocess
+import unittest
+
+REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+BACKEND = os.path.join(REPO, "backend")
+# In the order the data flows; pipeline and what sits on top of it come last.
+TOP = ["pipeline", "cli", "python"]
+THIRD_PARTY = {
+    "OCCT": r"(BRep|TopoDS|TopExp|TopAbs|TopLoc|TopTools|Geom|gp_|Standard_|STEP|IFSelect|ShapeFix|Poly_|Bnd_|BOPAlgo|GProp|Shape[A-Z]\w+_|Handle)\w*\.hxx",
+    "Gmsh": r"gmsh\w*\.h",
+    "LEMON": r"lemon/",
+    "pybind11": r"pybind11/",
+    "Boost": r"boost/",
+    "nlohmann": r"nlohmann/",
+    "MED": r"med\w*\.h",
+    "nanoflann": r"nanoflann",
+}
+MAX_LINES = 800
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+def tracked():
+    """Files under version control, or all where there is none (a source archive)."""
+    run = subprocess.run(["git", "-C", REPO, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
+    if run.returncode == 0:
+        names = [name for name in run.stdout.split("\0") if name]
+    else:
+        names = [os.path.relpath(os.path.join(folder, name), REPO) for folder, _, files in os.walk(REPO) for name in files]
+        names = [name for name in names if not name.startswith("build")]
+    return [name for name in names if os.path.isfile(os.path.join(REPO, name))]
+
+
+def stages():
+    """Stage -> stages it may use, as stages.cmake has it."""
+    text = read(os.path.join(BACKEND, "stages.cmake"))
+    uses = {}
+    for name, arguments in re.findall(r"^polycube_stage\((\w+)([^)]*)\)", text, re.M):
+        match = re.search(r"\bUSES((?: \w+)*?)(?= LINKS| PUBLIC_LINKS| SYSTEM|$)", arguments)
+        uses[name] = match.group(1).split() if match else []
+    return uses
+
+
+def sources(stage, suffixes=(".h", ".cpp")):
+    for folder, _, files in os.walk(os.path.join(BACKEND, stage)):
+        for name in sorted(files):
+            if name.endswith(suffixes):
+                yield os.path.join(folder, name)
+
+
+def includes(path, kind='"'):
+    close = {'"': '"', "<": ">"}[kind]
+    return re.findall(rf"^\s*#\s*include\s+{kind}([^{close}]+){close}", read(path), re.M)
+
+
+class Stages(unittest.TestCase):
+    uses = stages()
+
+    def test_the_list_was_read(self):
+        self.assertEqual(list(self.uses)[0], "core")
+        self.assertEqual(list(self.uses)[-1], "pipeline")
+        self.assertEqual(len(self.uses), 12)
+
+    def test_stages_use_earlier_ones_only(self):
+        order = list(self.uses)
+        for stage, used in self.uses.items():
+            for other in used:
+                self.assertLess(order.index(other), order.index(stage), f"{stage} uses {other}")
+
+    def test_includes_follow_the_list(self):
+        seen = 0
+        for stage, used in self.uses.items():
+            allowed = {stage, *used}
+            while True:  # what a used stage uses may come along in its headers
+                more = allowed | {other for name in allowed for other in self.uses[name]}
+                if more == allowed:
+                    break
+                allowed = more
+            for path in sources(stage):
+                for include in includes(path):
+                    seen += 1
+                    self.assertIn(include.split("/")[0], allowed, f"{os.path.relpath(path, REPO)} includes {include}")
+        self.assertGreater(seen, 50)
+
+    def test_nothing_includes_the_top(self):
+        for stage in self.uses:
+            for path in sources(stage):
+                for include in includes(path):
+                    top = include.split("/")[0]
+                    self.assertFalse(top in TOP and top != stage, f"{os.path.relpath(path, REPO)} includes {include}")
+
+    def test_every_folder_is_a_stage_with_a_page(self):
+        folders = {name for name in os.listdir(BACKEND) if os.path.isdir(os.path.join(BACKEND, name))}
+        self.assertEqual(folders, set(self.uses) | {"cli", "python"})
+        for name in folders:
+            self.assertTrue(os.path.exists(os.path.join(BACKEND, name, "README.md")), f"backend/{name} has no README.md")
+
+
+class PublicHeaders(unittest.TestCase):
+    """A stage's public headers are those that other folders include."""
+
+    def public(self):
+        found = set()
+        for folder in sorted(os.listdir(BACKEND)):
+            if not os.path.isdir(os.path.join(BACKEND, folder)):
+                continue
+            for path in sources(folder):
+                found |= {include for include in includes(path) if not include.startswith(folder + "/")}
+        return sorted(found)
+
+    def test_no_third_party_types(self):
+        headers = self.public()
+        self.assertGreater(len(headers), 12)
+        for header in headers:
+            path = os.path.join(BACKEND, header)
+            for include in includes(path, "<") + includes(path, '"'):
+                for library, pattern in THIRD_PARTY.items():
+                    self.assertIsNone(re.match(pattern, include), f"{header} includes {library}'s {include}")
+
+    def test_pragma_once(self):
+        for folder in sorted(os.listdir(BACKEND)):
+            for path in sources(folder, (".h",)):
+                self.assertIn("#pragma once", read(path), path)
+
+
+class Files(unittest.TestCase):
+    SOURCE = (".h", ".cpp", ".py", ".cmake", ".sh", ".ui")
+
+    def test_no_file_is_too_long(self):
+        for name in tracked():
+            if name.endswith(self.SOURCE) or name.startswith("resources/polycube"):
+                self.assertLessEqual(read(os.path.join(REPO, name)).count("\n"), MAX_LINES, name)
+
+    def test_no_paths_of_one_machine(self):
+        # Spelt so that this file does not match itself.
+        pattern = re.compile("/" + r"(work|home/\w+|root|tmp/\w+)/|" + "/" + r"tmp/[\w-]+")
+        for name in tracked():
+            try:
+                text = read(os.path.join(REPO, name))
+            except UnicodeDecodeError:
+                continue
+            match = pattern.search(text)
+            self.assertIsNone(match, f"{name}: {match and match.group()}")
+
+    def test_no_notes_to_self(self):
+        pattern = re.compile(r"\b(TO" + r"DO|FIX" + r"ME|XX" + r"X|HA" + r"CK)\b")
+        for name in tracked():
+            if name.endswith(self.SOURCE):
+                self.assertIsNone(pattern.search(read(os.path.join(REPO, name))), name)
+
+    def test_no_randomness_without_a_seed(self):
+        pattern = re.compile(r"\b(random_device|srand|std::rand|time\(nullptr\))")
+        for stage in Stages.uses:
+            for path in sources(stage):
+                self.assertIsNone(pattern.search(read(path)), path)
+
+
+if __name__ == "__main__":
+    unittest.main()

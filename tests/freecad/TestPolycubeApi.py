@@ -88,7 +88,7 @@ class MeshArrays(unittest.TestCase):
 
     @staticmethod
     def job_folders():
-        return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-")}
+        return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-job-")}
 
 
 class Invariance(unittest.TestCase):

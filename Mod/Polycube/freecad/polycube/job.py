@@ -22,7 +22,7 @@ class Job:
     """A folder with shape and options, ready to run; close() removes it."""
 
     def __init__(self, shape, options):
-        self.folder = tempfile.mkdtemp(prefix="polycube-")
+        self.folder = tempfile.mkdtemp(prefix="polycube-job-")
         with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
             file.write(shape.exportBrepToString())
         with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:

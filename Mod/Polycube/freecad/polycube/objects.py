@@ -28,6 +28,9 @@ _HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
 
 def make(document, part, name="PolycubeMesh"):
     """A new mesh object without cells, linked to the document object `part`."""
+    import Fem  # makes the types known
+
+    del Fem
     known = document.supportedTypes()
     obj = document.addObject(next(kind for kind in _TYPES if kind in known), name)
     PolycubeMesh(obj)

@@ -12,16 +12,16 @@ SIZES = (1 / 20, 1 / 40)  # of the bounding-box diagonal
 
 def load_freecad():
     sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib", os.path.join(REPO, "resources", "examples")]
-    import FreeCAD  # noqa: F401  (Part needs it first)
+    import FreeCAD
     import Part
-    return Part
+    return FreeCAD, Part
 
 
-def example_parts(part_module, folder):
+def example_parts(freecad, part_module, folder):
     box = part_module.makeBox(20, 16, 4)
     shapes = {
         "cylinder": part_module.makeCylinder(5, 10),
-        "plate": box.cut(part_module.makeCylinder(4, 4, (10, 8, 0))),
+        "plate": box.cut(part_module.makeCylinder(4, 4, freecad.Vector(10, 8, 0))),
         "ball": part_module.makeSphere(5),
     }
     import bracket
@@ -44,9 +44,9 @@ def run(program, part, size, folder):
 
 def main():
     program, parts = sys.argv[1], sys.argv[2:]
-    part_module = load_freecad()
+    freecad, part_module = load_freecad()
     with tempfile.TemporaryDirectory() as folder:
-        for path in parts or list(example_parts(part_module, folder)):
+        for path in parts or list(example_parts(freecad, part_module, folder)):
             shape = part_module.Shape()
             shape.read(path)
             for share in SIZES:

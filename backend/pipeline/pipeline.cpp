@@ -123,6 +123,10 @@ class Run {
     const Labelling labelling = stage("label", [&] { return label(model_, tets_, label_options, monitor_); });
     Features features = stage("label", [&] { return find_features(model_, tets_, labelling, c.min_bend, monitor_); });
     if (!c.features) features.charts.clear();
+    std::vector<std::vector<int>> plan{labelling.label};
+    for (const FeatureEdge& e : features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), bend(e.edge) < c.min_bend});
+    plan.push_back({static_cast<int>(features.charts.size())});
+    if (!tried_.insert(std::move(plan)).second) throw StageFailed("pipeline", "the same as one before");
 
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size_;
@@ -142,9 +146,7 @@ class Run {
     associate_options.size = typical_edge(complex.mesh);
     associate_options.edge_chains = edge_chains(model_, tets_);
     for (const FeatureEdge& e : features.edges) {
-      const CadEdge& edge = model_.edge(e.edge);
-      const double bend = std::max(std::abs(edge.min_angle - std::numbers::pi), std::abs(edge.max_angle - std::numbers::pi));
-      if (bend < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
+      if (bend(e.edge) < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
       if (e.capture == EdgeCapture::kLost) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
@@ -174,6 +176,11 @@ class Run {
     result.report.padded_hexes = pad_report.added_hexes;
     finish(result, std::move(padded));
     return result;
+  }
+
+  // How far the faces beside a CAD edge are from smooth, radians.
+  double bend(int edge) const {
+    return std::max(std::abs(model_.edge(edge).min_angle - std::numbers::pi), std::abs(model_.edge(edge).max_angle - std::numbers::pi));
   }
 
   static double typical_edge(const HexMesh& mesh) {
@@ -224,6 +231,7 @@ class Run {
   const Monitor& monitor_;
   double size_;
   TetMesh tets_;
+  std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };
 

@@ -28,12 +28,12 @@ def load():
         sys.path.remove(HERE)
 
 
-def environment():
-    """Environment for the child process, with the compiled module's folder on PYTHONPATH."""
-    env = dict(os.environ)
+def environment(folder):
+    """Environment for the child process: the compiled module's folder on PYTHONPATH, temporary files in the job's `folder`, which goes with it."""
+    env = dict(os.environ, TMPDIR=folder, TEMP=folder, TMP=folder)
     env.pop("PYTHONHOME", None)
-    folder = os.path.dirname(os.path.abspath(load().__file__))
-    env["PYTHONPATH"] = os.pathsep.join([folder] + [path for path in [env.get("PYTHONPATH")] if path])
+    module = os.path.dirname(os.path.abspath(load().__file__))
+    env["PYTHONPATH"] = os.pathsep.join([module] + [path for path in [env.get("PYTHONPATH")] if path])
     return env
 
 

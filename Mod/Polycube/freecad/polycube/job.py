@@ -75,7 +75,7 @@ def run(job, progress=None, log=None, cancel=None):
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        env=engine.environment(),
+        env=engine.environment(job.folder),
         text=True,
     )
     stopped = threading.Event()

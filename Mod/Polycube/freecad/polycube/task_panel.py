@@ -92,7 +92,7 @@ class MeshPanel:
             shapes.check_solid(shape)
             self.job = job.Job(shape, self._meshed_options)
             program, *arguments = self.job.command()
-            environment = engine.environment()
+            environment = engine.environment(self.job.folder)
         except (PolycubeError, ImportError, OSError) as error:
             self._close_job()
             self.log(str(error), error=True)

@@ -82,7 +82,8 @@ CadEdge edge_facts(const EdgeGeometry& g, const Maps& maps) {
 }
 
 /// Appends the curve of one edge in one face to the polygon, drawn along the wire.
-void draw_border(const EdgeUse& use, double first, double last, bool wire_forward, int edge_id, std::vector<BorderSegment>& border) {
+void draw_border(const EdgeUse& use, double first, double last, bool wire_forward, int edge_id, bool interior,
+                 std::vector<BorderSegment>& border) {
   Handle(Geom2d_Curve) curve = use.curve;
   while (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve)) curve = trimmed->BasisCurve();
   const bool straight = !Handle(Geom2d_Line)::DownCast(curve).IsNull();
@@ -90,7 +91,7 @@ void draw_border(const EdgeUse& use, double first, double last, bool wire_forwar
   for (int i = 0; i < pieces; ++i) {
     const double from = static_cast<double>(i) / pieces, to = static_cast<double>(i + 1) / pieces;
     const auto at = [&](double s) { return to_vec(use.curve->Value(first + (last - first) * (wire_forward ? s : 1 - s))); };
-    BorderSegment segment{at(from), at(to), 0, edge_id};
+    BorderSegment segment{at(from), at(to), 0, edge_id, interior};
     const Vec2 chord = segment.b - segment.a;
     double sagitta = 0;
     for (int k = 1; k < 4 && !straight; ++k) {
@@ -99,7 +100,8 @@ void draw_border(const EdgeUse& use, double first, double last, bool wire_forwar
       sagitta = std::max(sagitta, (off - along * chord).norm());
     }
     // Twice the sagitta at the quarter points bounds the deviation of any curve that does not wiggle within a 48th of its length.
-    segment.margin = 2 * sagitta + 1e-9 * (1 + chord.norm());
+    // Both sides of a seam are the face, so a wider margin there costs nothing and takes up the rounding of the parameters.
+    segment.margin = 2 * sagitta + (interior ? 1e-7 : 1e-9) * (1 + chord.norm());
     border.push_back(segment);
   }
 }
@@ -131,7 +133,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
       if (use.curve.IsNull()) throw InvalidInput(name({1, id}) + " has no curve on " + name({2, face_id}));
       const bool seam = occurrences[id] > 1, degenerate = BRep_Tool::Degenerated(edge);
       starts.push_back(drawn.size());
-      draw_border(use, first, last, use.forward, seam || degenerate ? 0 : id, drawn);
+      draw_border(use, first, last, use.forward, seam || degenerate ? 0 : id, seam || degenerate, drawn);
       if (degenerate) g.tips.push_back(to_vec(use.curve->Value((first + last) / 2)));
       if (!seam && !degenerate) g.border_edges.push_back(id);
       edges[static_cast<std::size_t>(id - 1)].uses.push_back(use);
@@ -141,7 +143,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
     const std::size_t count = drawn.size();
     for (std::size_t k = 0; ordered && k < starts.size(); ++k) {
       const std::size_t next = k + 1 < starts.size() ? starts[k + 1] : 0, last_piece = (k + 1 < starts.size() ? starts[k + 1] : count) - 1;
-      if (drawn[last_piece].b != drawn[next].a) drawn.push_back({drawn[last_piece].b, drawn[next].a, 0, 0});
+      if (drawn[last_piece].b != drawn[next].a) drawn.push_back({drawn[last_piece].b, drawn[next].a, 0, 0, false});
     }
     g.border.insert(g.border.end(), drawn.begin(), drawn.end());
   }

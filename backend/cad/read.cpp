@@ -7,16 +7,20 @@
 #include <Bnd_Box.hxx>
 #include <BRepBndLib.hxx>
 #include <GProp_GProps.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <TCollection_HAsciiString.hxx>
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -63,10 +67,26 @@ class ReaderGuard {
   std::streambuf* output_;
 };
 
+/// OCCT marks entities whose parameters it could not read, and then follows their null references into a crash: such a file must not be
+/// transferred. Entities other than shapes and geometry may be damaged without harm.
+void check_entities(const STEPControl_Reader& reader, const std::string& path) {
+  const opencascade::handle<Interface_InterfaceModel> model = reader.WS()->Model();
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList();
+  for (checks.Start(); checks.More(); checks.Next()) {
+    if (!checks.Value()->HasFailed()) continue;
+    const int number = checks.Number();
+    if (number == 0) throw InvalidInput(path + ": the STEP file is damaged");
+    const std::string type = model->Value(number)->DynamicType()->Name();
+    if (type.rfind("StepShape_", 0) == 0 || type.rfind("StepGeom_", 0) == 0 || type.rfind("StepData_", 0) == 0)
+      throw InvalidInput(path + ": the STEP file is damaged at entity #" + model->StringLabel(model->Value(number))->ToCString());
+  }
+}
+
 TopoDS_Shape read_step(const std::string& path) {
   const ReaderGuard guard;
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
+  check_entities(reader, path);
   reader.TransferRoots();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
   return reader.OneShape();

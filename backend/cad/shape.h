@@ -31,7 +31,8 @@ inline gp_Pnt to_pnt(const Vec3& p) { return {p[0], p[1], p[2]}; }
 struct BorderSegment {
   Vec2 a, b;
   double margin = 0;
-  int edge = 0;  ///< CAD edge, 0 where the segment is no border in space (seam, pole, gap)
+  int edge = 0;           ///< CAD edge, 0 where the segment is no border in space (seam, pole, gap)
+  bool interior = false;  ///< seam or pole: the face goes on beyond it
 };
 
 /// One edge in one face, with the curve in (u, v) and the direction along which the face lies to the left of it.

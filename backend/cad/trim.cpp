@@ -52,17 +52,20 @@ bool inside(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& 
   if (face.border_edges.empty()) return true;
   int crossings = 0;
   std::vector<int> near;
+  bool on_seam = false;
   for (const BorderSegment& segment : face.border) {
     const bool below_a = segment.a[1] <= uv[1], below_b = segment.b[1] <= uv[1];
     if (below_a != below_b) {
       const double u = segment.a[0] + (uv[1] - segment.a[1]) / (segment.b[1] - segment.a[1]) * (segment.b[0] - segment.a[0]);
       if (u > uv[0]) ++crossings;
     }
-    if (segment.edge != 0 && (near.empty() || near.back() != segment.edge) && squared_distance(segment, uv) <= segment.margin * segment.margin)
-      near.push_back(segment.edge);
+    const bool real = segment.edge != 0 && (near.empty() || near.back() != segment.edge);
+    if ((!real && !segment.interior) || squared_distance(segment, uv) > segment.margin * segment.margin) continue;
+    if (real) near.push_back(segment.edge);
+    on_seam = on_seam || segment.interior;
   }
   if (!near.empty()) return left_of_border(shape, face, uv, near);
-  return crossings % 2 == 1;
+  return on_seam || crossings % 2 == 1;
 }
 
 }  // namespace polycube

@@ -12,13 +12,13 @@
 namespace polycube {
 namespace {
 
-// Nodes of Gmsh lie on the CAD up to the CAD's own tolerance; the figure only has to tell neighbouring entities apart.
-constexpr double kFar = 1e-3;   // of the diagonal
+constexpr double kFar = 1e-3;    // of the diagonal: nodes lie on their entity up to the CAD's own tolerance
+constexpr double kNear = 1e-6;   // of the diagonal: no doubt is left
 constexpr int kProbes = 6;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Spreads the choice of at most kProbes over the whole list.
+/// At most kProbes, spread over the whole list.
 template <class T>
 std::vector<T> thin(const std::vector<T>& all) {
   if (all.size() <= kProbes) return all;
@@ -27,23 +27,42 @@ std::vector<T> thin(const std::vector<T>& all) {
   return some;
 }
 
-/// Points well inside each Gmsh entity of one dimension, by tag.
-std::map<int, std::vector<Vec3>> probes(const RawMesh& raw, int dim) {
-  std::map<int, std::vector<Vec3>> nodes, centres;
-  for (std::size_t i = 0; i < raw.points.size(); ++i)
-    if (raw.point_entity[i].dim == dim) nodes[raw.point_entity[i].id].push_back(raw.points[i]);
-  if (dim == 1)
-    for (std::size_t i = 0; i < raw.segments.size(); ++i)
-      centres[raw.segment_tag[i]].push_back((raw.points[at(raw.segments[i][0])] + raw.points[at(raw.segments[i][1])]) / 2);
-  if (dim == 2)
-    for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
-      const Triangle& t = raw.triangles[i];
-      centres[raw.triangle_tag[i]].push_back((raw.points[at(t[0])] + raw.points[at(t[1])] + raw.points[at(t[2])]) / 3);
+/// What is known of one Gmsh entity: nodes that must lie on it, and centres of its elements, which only lie near it.
+struct Probe {
+  std::vector<Vec3> nodes, centres;
+  bool own = false;  ///< some of the nodes are classified on the entity itself, not on its border
+};
+
+template <class Elements>
+std::map<int, Probe> probes_of(const RawMesh& raw, int dim, const Elements& elements, const std::vector<int>& tags) {
+  std::map<int, std::vector<int>> elements_of;
+  for (std::size_t i = 0; i < elements.size(); ++i) elements_of[tags[i]].push_back(static_cast<int>(i));
+  std::map<int, Probe> result;
+  for (const auto& [tag, list] : elements_of) {
+    Probe& probe = result[tag];
+    std::vector<int> own, border;
+    for (const int i : list) {
+      Vec3 centre = Vec3::Zero();
+      for (const int v : elements[at(i)]) {
+        centre += raw.points[at(v)] / static_cast<double>(elements[at(i)].size());
+        (raw.point_entity[at(v)] == CadRef{dim, tag} ? own : border).push_back(v);
+      }
+      probe.centres.push_back(centre);
     }
-  std::map<int, std::vector<Vec3>> result;
-  for (auto& [tag, points] : centres) result[tag] = thin(nodes.count(tag) ? nodes[tag] : points);
-  if (dim == 0)
-    for (auto& [tag, points] : nodes) result[tag] = points;
+    probe.own = !own.empty();
+    probe.centres = thin(probe.centres);
+    for (const std::vector<int>& nodes : {thin(own), thin(border)})
+      for (const int v : nodes) probe.nodes.push_back(raw.points[at(v)]);
+  }
+  return result;
+}
+
+std::map<int, Probe> probes(const RawMesh& raw, int dim) {
+  if (dim == 1) return probes_of(raw, 1, raw.segments, raw.segment_tag);
+  if (dim == 2) return probes_of(raw, 2, raw.triangles, raw.triangle_tag);
+  std::map<int, Probe> result;
+  for (std::size_t i = 0; i < raw.points.size(); ++i)
+    if (raw.point_entity[i].dim == 0) result[raw.point_entity[i].id] = {{raw.points[i]}, {raw.points[i]}, true};
   return result;
 }
 
@@ -52,32 +71,25 @@ double distance(const CadModel& model, int dim, int id, const Vec3& p) {
   return dim == 1 ? model.project_to_edge(id, p).distance : model.project_to_face(id, p).distance;
 }
 
-double mean_distance(const CadModel& model, int dim, int id, const std::vector<Vec3>& points, double give_up) {
-  double sum = 0;
-  for (const Vec3& p : points) {
-    sum += distance(model, dim, id, p);
-    if (sum > give_up * static_cast<double>(points.size())) return std::numeric_limits<double>::infinity();
-  }
-  return sum / static_cast<double>(points.size());
-}
-
-/// Gmsh tag -> CAD number. Equal numbers are expected and looked at first; nothing is taken without the distances agreeing.
+/// Gmsh tag -> CAD number. The equal number is looked at first; nothing is taken without the distances agreeing.
 std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
   const int count = dim == 0 ? model.vertex_count() : dim == 1 ? model.edge_count() : model.face_count();
   std::map<int, int> result;
   std::set<int> taken;
-  for (const auto& [tag, points] : probes(raw, dim)) {
-    const double near = 1e-6 * model.diagonal();
+  for (const auto& [tag, probe] : probes(raw, dim)) {
     int best = 0;
-    double least = kFar * model.diagonal();
-    const auto consider = [&](int id) {
-      if (dim == 1 && model.edge(id).degenerate) return;
-      const double d = mean_distance(model, dim, id, points, least);
-      if (d < least) least = d, best = id;
+    double least = std::numeric_limits<double>::infinity();
+    const auto all_within = [&](int id, double reach) {
+      return std::all_of(probe.nodes.begin(), probe.nodes.end(), [&](const Vec3& p) { return distance(model, dim, id, p) <= reach * model.diagonal(); });
     };
-    if (tag <= count) consider(tag);
-    for (int id = 1; id <= count && !(best == tag && least <= near); ++id)
-      if (id != tag) consider(id);
+    const auto consider = [&](int id) {
+      if ((dim == 1 && model.edge(id).degenerate) || !all_within(id, kFar)) return;
+      double sum = 0;
+      for (const Vec3& p : probe.centres) sum += distance(model, dim, id, p);
+      if (sum < least) least = sum, best = id;
+    };
+    if (probe.own && tag <= count && !(dim == 1 && model.edge(tag).degenerate) && all_within(tag, kNear)) best = tag;
+    for (int id = 1; id <= count && best != tag; ++id) consider(id);
     if (best == 0) throw Unusable("Gmsh's " + name({dim, tag}) + " lies on no CAD entity");
     if (!taken.insert(best).second) throw Unusable("two of Gmsh's entities lie on " + name({dim, best}), {{dim, best}});
     result[tag] = best;

@@ -21,28 +21,29 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Gmsh's algorithm numbers: surface 1 MeshAdapt, 5 Delaunay, 6 Frontal-Delaunay; volume 1 Delaunay, 4 Frontal, 10 HXT.
+/// Gmsh's algorithm numbers: surface 1 MeshAdapt, 5 Delaunay, 6 Frontal-Delaunay; volume 1 Delaunay, 10 HXT.
 struct Rung {
   int surface, volume;
   bool curvature, heal;
   double scale;  // of the size
 };
 
+// Finer where the chosen size fails: faces that are thin against the elements cross each other when meshed coarsely.
 constexpr std::array<Rung, 9> kLadder{{
     {6, 1, true, false, 1.0},
     {5, 1, true, false, 1.0},
-    {1, 1, true, false, 1.0},
-    {6, 10, true, false, 0.8},
-    {6, 1, false, false, 1.0},
-    {1, 1, true, false, 0.6},
-    {5, 1, false, false, 0.5},
-    {1, 4, false, false, 1.4},
-    {6, 1, true, true, 1.0},
+    {6, 1, true, false, 0.7},
+    {1, 1, true, false, 0.7},
+    {6, 10, true, false, 0.5},
+    {6, 1, false, false, 0.5},
+    {1, 1, true, false, 0.35},
+    {6, 1, true, true, 0.7},
+    {5, 1, false, false, 1.4},
 }};
 
 std::string describe(const Rung& rung) {
   char text[120];
-  std::snprintf(text, sizeof text, "surface algorithm %d, volume algorithm %d, curvature %s, size x %.1f%s", rung.surface, rung.volume,
+  std::snprintf(text, sizeof text, "surface algorithm %d, volume algorithm %d, curvature %s, size x %.2g%s", rung.surface, rung.volume,
                 rung.curvature ? "on" : "off", rung.scale, rung.heal ? ", healed" : "");
   return text;
 }

@@ -22,7 +22,8 @@ class GmshSession {
     gmsh::initialize();
     set("General.Terminal", 0);
     set("General.NumThreads", 1);
-    set("General.AbortOnError", 2);
+    // Errors are kept for the report; whether the mesh can be used all the same is for the stage to judge.
+    set("General.AbortOnError", 0);
   }
   ~GmshSession() { gmsh::finalize(); }
   GmshSession(const GmshSession&) = delete;
@@ -76,7 +77,7 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
   GmshSession session;
   gmsh::vectorpair shapes;
   if (setting.heal)
-    for (const char* option : {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces", "Geometry.OCCSewFaces"})
+    for (const char* option : {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces", "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids"})
       session.set(option, 1);
   gmsh::model::occ::importShapes(part, shapes, true, "brep");
   gmsh::model::occ::synchronize();
@@ -88,7 +89,11 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
   gmsh::model::mesh::setSizeCallback([&](int dim, int tag, double, double, double) { return size_at(setting, dim, tag); });
   gmsh::model::mesh::generate(3);
   const RawMesh mesh = collect();
-  if (mesh.tets.empty()) throw std::runtime_error("Gmsh made no tetrahedra");
+  if (mesh.tets.empty()) {
+    std::string error;
+    gmsh::logger::getLastError(error);
+    throw std::runtime_error(error.empty() ? "Gmsh made no tetrahedra" : "Gmsh: " + error);
+  }
   write_raw(mesh, output);
 }
 

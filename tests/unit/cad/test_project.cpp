@@ -115,6 +115,16 @@ TEST(Project, PointsOfTheFaceStay) {
   }
 }
 
+TEST(Project, EdgesLieOnTheirFaces) {
+  // Seams above all: their points are inner points of the face whichever way the parameters are rounded.
+  for (const Case& c : cases()) {
+    const CadModel model = CadModel::from_brep(c.brep);
+    for (int e = 1; e <= model.edge_count(); ++e)
+      for (const int f : model.edge(e).faces)
+        for (const Vec3& p : model.edge_samples(e, 33)) EXPECT_LT(model.project_to_face(f, p).distance, 1e-6) << c.name << " Edge" << e << " Face" << f;
+  }
+}
+
 TEST(Project, SeedsFindTheSamePoint) {
   for (const Case& c : cases()) {
     const CadModel model = CadModel::from_brep(c.brep);

@@ -23,8 +23,14 @@ double dihedral_angle(const CadModel& model, int id, const Vec3& p) {
   return beyond(kPi - turn) <= beyond(kPi + turn) ? kPi - turn : kPi + turn;
 }
 
-// Unit direction in which CAD edge `id` leaves CAD vertex `vertex`; `towards` tells the two ends of a closed edge apart.
-Vec3 leaving_direction(const CadModel& model, int id, int vertex, const Vec3& towards) {
+// A CAD edge as it leaves a CAD vertex.
+struct Leaving {
+  Vec3 tangent;
+  Vec3 chord;  // to the point at `reach` along it
+};
+
+// `towards` tells the two ends of a closed edge apart.
+Leaving leave(const CadModel& model, int id, int vertex, const Vec3& towards, double reach) {
   const CadEdge& edge = model.edge(id);
   const auto [begin, end] = model.edge_range(id);
   bool from_start = edge.vertices[0] == vertex;
@@ -32,24 +38,33 @@ Vec3 leaving_direction(const CadModel& model, int id, int vertex, const Vec3& to
     const double t = model.project_to_edge(id, towards).t;
     from_start = t - begin <= end - t;
   }
-  return from_start ? model.edge_tangent(id, begin) : Vec3(-model.edge_tangent(id, end));
+  const double step = (end - begin) * std::min(1.0, reach / edge.length);
+  const Vec3 chord = model.edge_point(id, from_start ? begin + step : end - step) - model.vertex(vertex);
+  return {from_start ? model.edge_tangent(id, begin) : Vec3(-model.edge_tangent(id, end)), chord};
+}
+
+// From 0 to 2 pi, counter-clockwise about the normal.
+double turn(const Vec3& normal, const Vec3& from, const Vec3& to) {
+  const double angle = std::atan2(normal.dot(from.cross(to)), from.dot(to));
+  return angle > 0 ? angle : angle + 2 * kPi;
 }
 
 double corner_angle(const CadModel& model, const HexMesh& mesh, const Association& association, const Sector& sector, int first_edge,
                     int last_edge) {
   const int vertex = association.point_cad[sector.node].id;
-  const Vec3 from = leaving_direction(model, first_edge, vertex, mesh.points[sector.first]);
-  const Vec3 to = leaving_direction(model, last_edge, vertex, mesh.points[sector.last]);
+  const double reach = 0.3 * std::min(model.edge(first_edge).length, model.edge(last_edge).length);
+  const Leaving from = leave(model, first_edge, vertex, mesh.points[sector.first], reach);
+  const Leaving to = leave(model, last_edge, vertex, mesh.points[sector.last], reach);
   const auto& faces = association.patches[sector.patch];
   int face = faces[0];
   for (int f : model.edge(first_edge).faces) {
     if (std::find(faces.begin(), faces.end(), f) != faces.end()) face = f;
   }
   const Vec3 normal = model.face_normal(face, model.project_to_face(face, model.vertex(vertex)).uv);
-  const double angle = std::atan2(normal.dot(from.cross(to)), from.dot(to));
-  // Edges that leave in one direction bound a cusp, or a full turn.
-  if (std::abs(angle) < 1e-3) return sector.quads > 2 ? 2 * kPi : 1e-3;
-  return angle > 0 ? angle : angle + 2 * kPi;
+  const double angle = turn(normal, from.tangent, to.tangent);
+  // Edges that leave in one direction bound a cusp or nearly a full turn: their curvature tells which.
+  constexpr double kCusp = 0.02;
+  return angle < kCusp || angle > 2 * kPi - kCusp ? turn(normal, from.chord, to.chord) : angle;
 }
 
 }  // namespace

@@ -5,9 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/hexahedron.h"
-#include "pad/angles.h"
-#include "pad/sheet.h"
+#include "pad/trial.h"
 
 namespace polycube {
 
@@ -15,8 +13,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kBadSector = 0.9;       // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
-constexpr double kInnerWeight = 0.3;     // of edges inside, which have room to give way
-constexpr double kHexPrice = 0.02;
 constexpr double kLeastGain = 0.3;
 constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
 constexpr int kMaxSheets = 400;
@@ -28,115 +24,14 @@ struct Stretch {
   std::vector<char> bad;  // per node
 };
 
-// A mesh cut out round some hexes, with everything that touches their nodes.
-struct Part {
-  HexMesh mesh;
-  Association association;
-  std::vector<char> inside;   // per hex of the part
-  std::vector<char> near;     // per node of the part: on an inside hex
-  std::vector<int> node_of;   // per node of the whole mesh, -1 if not in the part
-  std::vector<int> quad_of;   // per quad of the part: quad of the whole mesh
-};
-
-// What stays the same while candidates are compared.
-struct Whole {
-  const CadModel& model;
-  const PaddedMesh& padded;
-  HexTopology topology;
-  std::vector<std::vector<int>> node_quads;
-  std::vector<std::vector<int>> node_segments;
-
-  Whole(const CadModel& cad, const PaddedMesh& mesh) : model(cad), padded(mesh), topology(build_topology(mesh.mesh, mesh.association.quads)) {
-    node_quads.resize(mesh.mesh.points.size());
-    node_segments.resize(mesh.mesh.points.size());
-    for (int q = 0; q < static_cast<int>(mesh.association.quads.size()); ++q) {
-      for (int node : mesh.association.quads[q]) node_quads[node].push_back(q);
-    }
-    for (int s = 0; s < static_cast<int>(mesh.association.segments.size()); ++s) {
-      for (int node : mesh.association.segments[s]) node_segments[node].push_back(s);
-    }
-  }
-};
-
 struct Candidate {
   std::set<int> inside;     // hexes
   std::set<int> surface;    // quads
   double gain = 0;
 };
 
-Part cut_out(const Whole& whole, const std::set<int>& inside) {
-  const HexMesh& mesh = whole.padded.mesh;
-  const Association& a = whole.padded.association;
-  std::set<int> near, hexes, quads, segments;
-  for (int h : inside) near.insert(mesh.hexes[h].begin(), mesh.hexes[h].end());
-  for (int v : near) {
-    hexes.insert(whole.topology.node_hexes.begin() + whole.topology.node_first[v], whole.topology.node_hexes.begin() + whole.topology.node_first[v + 1]);
-  }
-  Part part;
-  part.association.patches = a.patches;
-  part.node_of.assign(mesh.points.size(), -1);
-  for (int h : hexes) {
-    Hex hex;
-    for (int c = 0; c < 8; ++c) {
-      const int v = mesh.hexes[h][c];
-      if (part.node_of[v] < 0) {
-        part.node_of[v] = static_cast<int>(part.mesh.points.size());
-        part.mesh.points.push_back(mesh.points[v]);
-        part.association.point_cad.push_back(a.point_cad[v]);
-        part.near.push_back(near.count(v) > 0);
-        quads.insert(whole.node_quads[v].begin(), whole.node_quads[v].end());
-        segments.insert(whole.node_segments[v].begin(), whole.node_segments[v].end());
-      }
-      hex[c] = part.node_of[v];
-    }
-    part.mesh.hexes.push_back(hex);
-    part.inside.push_back(inside.count(h) > 0);
-  }
-  for (int q : quads) {
-    if (hexes.count(whole.topology.quad_side[q] / 6) == 0) continue;
-    Quad quad = a.quads[q];
-    for (int& v : quad) v = part.node_of[v];
-    part.association.quads.push_back(quad);
-    part.association.quad_patch.push_back(a.quad_patch[q]);
-    part.quad_of.push_back(q);
-  }
-  for (int s : segments) {
-    const Segment segment{part.node_of[a.segments[s][0]], part.node_of[a.segments[s][1]]};
-    if (segment[0] < 0 || segment[1] < 0) continue;
-    part.association.segments.push_back(segment);
-    part.association.segment_edge.push_back(a.segment_edge[s]);
-  }
-  return part;
-}
-
-// Sum of angle costs at the edges that touch a near node and in the sectors at near nodes.
-double total_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& near) {
-  const HexTopology topology = build_topology(mesh, association.quads);
-  const auto boundary = boundary_edges(mesh, association.quads, topology);
-  const auto angles = dihedral_angles(model, mesh, association, boundary);
-  double cost = 0;
-  for (std::size_t e = 0; e < boundary.size(); ++e) {
-    if (near[boundary[e].a] || near[boundary[e].b]) cost += angle_cost(boundary[e].hexes, angles[e]);
-  }
-  std::vector<std::array<int, 2>> edges;
-  for (const Hex& hex : mesh.hexes) {
-    for (const auto& [c, d] : kHexEdges) {
-      if (near[hex[c]] || near[hex[d]]) edges.push_back({std::min(hex[c], hex[d]), std::max(hex[c], hex[d])});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0; i < edges.size();) {
-    std::size_t j = i;
-    while (j < edges.size() && edges[j] == edges[i]) ++j;
-    if (find_edge(boundary, edges[i][0], edges[i][1]) < 0) cost += kInnerWeight * angle_cost(static_cast<int>(j - i), 2 * kPi);
-    i = j;
-  }
-  for (const Sector& s : find_sectors(model, mesh, association, near)) cost += angle_cost(s.quads, s.angle);
-  return cost;
-}
-
 // The sheet round a stretch through the hexes under `band`, quads of the patch.
-Candidate make_candidate(const Whole& whole, int patch, const Stretch& stretch, const std::vector<int>& band) {
+Candidate make_candidate(const TrialMesh& whole, int patch, const Stretch& stretch, const std::vector<int>& band) {
   const HexMesh& mesh = whole.padded.mesh;
   const Association& a = whole.padded.association;
   Candidate candidate;
@@ -176,24 +71,24 @@ Candidate make_candidate(const Whole& whole, int patch, const Stretch& stretch, 
   return candidate;
 }
 
+SheetCut as_cut(const TrialMesh& whole, const Candidate& candidate) {
+  SheetCut cut{std::vector<char>(whole.padded.mesh.hexes.size(), 0), std::vector<char>(whole.padded.association.quads.size(), 0)};
+  for (int h : candidate.inside) cut.inside[h] = 1;
+  for (int q : candidate.surface) cut.surface[q] = 1;
+  return cut;
+}
+
 // Fills in the gain; false if the sheet cannot be opened. Takes in more hexes of the patch where that makes it possible.
-bool rate(const Whole& whole, int patch, Candidate& candidate) {
+bool rate(const TrialMesh& whole, int patch, Candidate& candidate) {
   constexpr int kRepairs = 5;
   for (int attempt = 0; attempt < kRepairs; ++attempt) {
-    Part part = cut_out(whole, candidate.inside);
-    SheetCut cut{part.inside, std::vector<char>(part.quad_of.size(), 0)};
-    for (std::size_t q = 0; q < part.quad_of.size(); ++q) cut.surface[q] = candidate.surface.count(part.quad_of[q]) > 0;
-    const auto obstacles = sheet_obstacles(part.mesh, part.association, cut);
-    if (obstacles.empty()) {
-      candidate.gain = total_cost(whole.model, part.mesh, part.association, part.near);
-      const int added = insert_sheet(part.mesh, part.association, cut);
-      part.near.resize(part.mesh.points.size(), 1);
-      candidate.gain -= total_cost(whole.model, part.mesh, part.association, part.near) + kHexPrice * added;
+    const TrialResult result = try_sheet(whole, as_cut(whole, candidate));
+    if (result.obstacles.empty()) {
+      candidate.gain = result.gain;
       return true;
     }
     const std::size_t before = candidate.inside.size();
-    for (int v = 0; v < static_cast<int>(whole.padded.mesh.points.size()); ++v) {
-      if (part.node_of[v] < 0 || !std::binary_search(obstacles.begin(), obstacles.end(), part.node_of[v])) continue;
+    for (int v : result.obstacles) {
       for (int q : whole.node_quads[v]) {
         if (whole.padded.association.quad_patch[q] == patch) candidate.inside.insert(whole.topology.quad_side[q] / 6);
       }
@@ -285,7 +180,7 @@ Stretch trimmed(const Stretch& stretch) {
 }
 
 // Quads of the patch along a stretch.
-std::vector<int> band_of(const Whole& whole, int patch, const Stretch& stretch) {
+std::vector<int> band_of(const TrialMesh& whole, int patch, const Stretch& stretch) {
   std::vector<int> band;
   const std::size_t skip = stretch.closed ? 0 : 1;  // quads that only touch an end stay out
   for (std::size_t i = skip; i + skip < stretch.nodes.size(); ++i) {
@@ -299,7 +194,7 @@ std::vector<int> band_of(const Whole& whole, int patch, const Stretch& stretch) 
 }
 
 // The best sheet for a bad sector; no hexes if none gains.
-Candidate best_sheet(const Whole& whole, const Border& border, const std::vector<Sector>& sectors, int bad) {
+Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::vector<Sector>& sectors, int bad) {
   const int patch = sectors[bad].patch;
   std::vector<int> all;
   for (int q = 0; q < static_cast<int>(whole.padded.association.quads.size()); ++q) {
@@ -340,7 +235,7 @@ int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monit
       }
     }
     if (bad.empty()) break;
-    const Whole whole(model, padded);
+    const TrialMesh whole(model, padded);
     const Border border(sectors);
     for (int i : bad) {
       monitor.check();
@@ -349,9 +244,7 @@ int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monit
         given_up.insert({sectors[i].node, sectors[i].patch});
         continue;
       }
-      SheetCut cut{std::vector<char>(padded.mesh.hexes.size(), 0), std::vector<char>(padded.association.quads.size(), 0)};
-      for (int h : best.inside) cut.inside[h] = 1;
-      for (int q : best.surface) cut.surface[q] = 1;
+      const SheetCut cut = as_cut(whole, best);
       insert_sheet(padded.mesh, padded.association, cut);
       ++sheets;
       again = true;

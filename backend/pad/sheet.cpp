@@ -55,7 +55,9 @@ class Opening {
 
   bool is_cut(int side) const {
     const int mate = topology_.mate[side];
-    return mate >= 0 ? !cut_.inside[mate / 6] : static_cast<bool>(cut_.surface[-1 - mate]);
+    if (mate >= 0) return !cut_.inside[mate / 6];
+    const std::size_t quad = static_cast<std::size_t>(-1 - mate);
+    return quad < cut_.surface.size() && cut_.surface[quad];  // a part cut out of a mesh ends at faces that are not listed
   }
   int face_node(int side, int k) const { return mesh_.hexes[side / 6][kHexFaces[side % 6][k]]; }
   int copy_at(int hex, int node) const { return corner_copy_[8 * hex + corner_of(mesh_.hexes[hex], node)]; }

@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "blocks/clip.h"
-#include "blocks/sheets.h"
-#include "blocks/topology.h"
+#include "blocks/coarsen.h"
+#include "blocks/pieces.h"
 #include "blocks/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
@@ -57,168 +56,8 @@ struct SideArea {
   double area;
 };
 
-/// Area of the cut between two components.
-struct Flux {
-  int low, high;  ///< components, pieces before they are known
-  int axis, plane, sheet;
-  double area;
-};
-
-struct ChartArea {
-  int component;  ///< piece before components are known
-  int chart;
-  double area;    ///< along +axis
-};
-
 struct Box {
   std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}}, chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
-};
-
-/// Cuts every tet by its sheets and gathers the pieces that adjoin into components.
-class Pieces {
- public:
-  Pieces(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, const SheetCuts& cuts)
-      : mesh_(mesh), topology_(topology), cuts_(cuts), chart_of_triangle_(mesh.triangles.size(), -1) {
-    for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
-      for (int t : map.charts[c].triangles) chart_of_triangle_[t] = c;
-    }
-    axis_.reserve(map.charts.size());
-    for (const Chart& chart : map.charts) axis_.push_back(chart.axis);
-  }
-
-  void run(const Monitor& monitor) {
-    const int tet_count = static_cast<int>(mesh_.tets.size());
-    offset.assign(tet_count + 1, 0);
-    for (int t = 0; t < tet_count; ++t) {
-      const auto n = counts(t);
-      offset[t + 1] = offset[t] + (n[0] + 1) * (n[1] + 1) * (n[2] + 1);
-    }
-    volume_.assign(offset.back(), 0);
-    used_.assign(offset.back(), 0);
-    UnionFind sets(offset.back());
-    sets_ = &sets;
-    for (int t = 0; t < tet_count; ++t) {
-      if (t % 4096 == 0) monitor.progress("blocks", 0.1 + 0.7 * t / tet_count);
-      cut_tet(t);
-    }
-    component.assign(offset.back(), -1);
-    for (int p = 0; p < offset.back(); ++p) {
-      if (!used_[p]) continue;
-      const int root = sets.find(p);
-      if (component[root] < 0) {
-        component[root] = static_cast<int>(volume.size());
-        volume.push_back(0);
-      }
-      component[p] = component[root];
-      volume[component[p]] += volume_[p];
-    }
-    for (Flux& f : fluxes) {
-      f.low = component[f.low];
-      f.high = component[f.high];
-    }
-    const auto key = [](const Flux& f) { return std::array{f.low, f.high, f.axis, f.plane, f.sheet}; };
-    std::stable_sort(fluxes.begin(), fluxes.end(), [&](const Flux& a, const Flux& b) { return key(a) < key(b); });
-    std::size_t kept = 0;
-    for (const Flux& f : fluxes) {
-      if (kept > 0 && key(fluxes[kept - 1]) == key(f)) {
-        fluxes[kept - 1].area += f.area;
-      } else {
-        fluxes[kept++] = f;
-      }
-    }
-    fluxes.resize(kept);
-    for (ChartArea& a : chart_areas) a.component = component[a.component];
-  }
-
-  std::vector<int> offset;          ///< CSR: pieces of every tet
-  std::vector<int> component;       ///< per piece, -1 where a tet has no such piece
-  std::vector<double> volume;       ///< per component, signed
-  std::vector<Flux> fluxes;
-  std::vector<ChartArea> chart_areas;
-
- private:
-  std::array<int, 3> counts(int t) const {
-    std::array<int, 3> n{};
-    for (int i = cuts_.first[t]; i < cuts_.first[t + 1]; ++i) ++n[cuts_.cuts[i].axis];
-    return n;
-  }
-
-  void cut_tet(int t) {
-    const Tet& tet = mesh_.tets[t];
-    clipper_.load({cuts_.image[tet[0]], cuts_.image[tet[1]], cuts_.image[tet[2]], cuts_.image[tet[3]]});
-    begin_[0] = cuts_.first[t];
-    const auto n = counts(t);
-    for (int d = 0; d < 3; ++d) begin_[d + 1] = begin_[d] + n[d];
-    slice(t, 0, clipper_.whole(), {});
-  }
-
-  void slice(int t, int axis, const Polyhedron& in, std::array<int, 3> at) {
-    if (axis == 3) return emit(t, in, at);
-    if (begin_[axis] == begin_[axis + 1]) return slice(t, axis + 1, in, at);
-    auto& [rest, below, above] = buffers_[axis];
-    rest = in;
-    for (int i = begin_[axis]; i < begin_[axis + 1] && !rest.tags.empty(); ++i, ++at[axis]) {
-      clipper_.split(rest, axis, cuts_.planes[axis][cuts_.cuts[i].plane], below, above);
-      if (!below.tags.empty()) slice(t, axis + 1, below, at);
-      std::swap(rest, above);
-    }
-    if (!rest.tags.empty()) slice(t, axis + 1, rest, at);
-  }
-
-  int piece(int t, const std::array<int, 3>& at) const {
-    return offset[t] + (at[0] * (begin_[2] - begin_[1] + 1) + at[1]) * (begin_[3] - begin_[2] + 1) + at[2];
-  }
-
-  void emit(int t, const Polyhedron& p, const std::array<int, 3>& at) {
-    const int self = piece(t, at);
-    used_[self] = 1;
-    volume_[self] = clipper_.volume6(p) / 6;
-    for (int f = 0; f < static_cast<int>(p.tags.size()); ++f) {
-      const int tag = p.tags[f];
-      if (tag >= 4) {
-        if (tag % 2 == 0) continue;  // a cut is booked once, from below
-        const int axis = (tag - 4) / 2;
-        auto above = at;
-        ++above[axis];
-        const Cut& cut = cuts_.cuts[begin_[axis] + at[axis]];
-        fluxes.push_back({self, piece(t, above), axis, cut.plane, cut.sheet, clipper_.area2(p, f, axis) / 2});
-      } else if (const int n = topology_.neighbours[t][tag]; n < 0) {
-        const int chart = chart_of_triangle_[topology_.triangles[t][tag]];
-        chart_areas.push_back({self, chart, clipper_.area2(p, f, axis_[chart]) / 2});
-      } else if (n > t) {
-        sets_->unite(self, neighbour_piece(t, tag, n, at));
-      }
-    }
-  }
-
-  /// The piece of tet n that shares the part of facet f that belongs to piece `at` of tet t.
-  int neighbour_piece(int t, int f, int n, const std::array<int, 3>& at) const {
-    int index = 0, i = cuts_.first[n];
-    const int end = cuts_.first[n + 1];
-    for (int axis = 0; axis < 3; ++axis) {
-      const int low = at[axis] > 0 ? cuts_.cuts[begin_[axis] + at[axis] - 1].plane : -1;
-      double smallest = cuts_.image[mesh_.tets[t][kTetFacets[f][0]]][axis];
-      for (int k : kTetFacets[f]) smallest = std::min(smallest, cuts_.image[mesh_.tets[t][k]][axis]);
-      int below = 0, count = 0;
-      for (; i < end && cuts_.cuts[i].axis == axis; ++i, ++count) {
-        const int plane = cuts_.cuts[i].plane;
-        if (plane <= low || cuts_.planes[axis][plane] < smallest) ++below;
-      }
-      index = index * (count + 1) + below;
-    }
-    return offset[n] + index;
-  }
-
-  const TetMesh& mesh_;
-  const TetTopology& topology_;
-  const SheetCuts& cuts_;
-  std::vector<int> chart_of_triangle_, axis_;
-  TetClipper clipper_;
-  std::array<int, 4> begin_{};  ///< per axis the first of the tet's cuts
-  std::array<std::array<Polyhedron, 3>, 3> buffers_;
-  std::vector<double> volume_;
-  std::vector<char> used_;
-  UnionFind* sets_ = nullptr;
 };
 
 class Assembly {
@@ -230,11 +69,12 @@ class Assembly {
     find_boxes();
     choose_blocks();
     find_neighbours();
+    complex_.sheets = cuts_.sheets;
+    complex_.unknown = cuts_.unknown;
+    if (cuts_.all) drop_sheets();
     find_vertices();
     collect_tets();
     find_feature_vertices();
-    complex_.sheets = cuts_.sheets;
-    complex_.unknown = cuts_.unknown;
     for (int c = 0; c < static_cast<int>(map_.charts.size()); ++c) {
       if (cuts_.collapsed[c]) complex_.collapsed.push_back(c);
     }
@@ -257,8 +97,8 @@ class Assembly {
     for (const ChartArea& a : pieces_.chart_areas) {
       if (cuts_.collapsed[a.chart]) continue;
       const Chart& chart = map_.charts[a.chart];
-      sides.push_back({a.component, chart.axis, chart.sign > 0 ? 1 : 0, cuts_.chart_plane[a.chart], cuts_.chart_sheet[a.chart], a.chart,
-                       chart.sign > 0 ? a.area : -a.area});
+      const int sign = cuts_.sign[a.chart];
+      sides.push_back({a.component, chart.axis, sign > 0 ? 1 : 0, cuts_.chart_plane[a.chart], cuts_.chart_sheet[a.chart], a.chart, sign * a.area});
     }
     const auto key = [](const SideArea& s) { return std::array{s.component, s.axis, s.side, s.plane, s.sheet, s.chart}; };
     std::stable_sort(sides.begin(), sides.end(), [&](const SideArea& a, const SideArea& b) { return key(a) < key(b); });
@@ -325,6 +165,7 @@ class Assembly {
       kept += box_volume;
       block_of_[k] = static_cast<int>(complex_.blocks.size());
       component_of_.push_back(static_cast<int>(k));
+      planes_.push_back(box.plane);
       complex_.blocks.push_back(std::move(block));
     }
     if (!blamed.empty()) fail("the charts' planes do not bound a volume", std::move(blamed), mesh_, map_);
@@ -357,7 +198,7 @@ class Assembly {
           complex_.blocks[low].neighbours[2 * f.axis + 1] = high;
         } else {
           for (auto [chart, area] : charts_in[f.low]) {
-            if (cuts_.collapsed[chart] || map_.charts[chart].axis != f.axis || cuts_.chart_plane[chart] != f.plane || map_.charts[chart].sign > 0) continue;
+            if (cuts_.collapsed[chart] || map_.charts[chart].axis != f.axis || cuts_.chart_plane[chart] != f.plane || cuts_.sign[chart] > 0) continue;
             const double weight = std::min(-area, f.area);
             if (weight <= best[high][f.axis]) continue;
             best[high][f.axis] = weight;
@@ -373,6 +214,50 @@ class Assembly {
         if (block.neighbours[2 * d + 1] < 0) block.side_chart[2 * d + 1] = boxes_[component_of_[b]].chart[d][1];
       }
     }
+  }
+
+  /// After a cut along all of every plane.
+  void drop_sheets() {
+    std::vector<std::array<int, 3>> touched;
+    for (int c = 0; c < static_cast<int>(map_.charts.size()); ++c) {
+      if (map_.charts[c].sign != 0) continue;
+      for_blocks_at_nodes(c, [&](int node, int block) {
+        const int axis = map_.charts[c].axis;
+        for (int s : {0, 1}) {
+          if (planes_[block][axis][s] == cuts_.chart_plane[c] && in_box(cuts_.image[node], block)) touched.push_back({block, 2 * axis + s, c});
+        }
+      });
+    }
+    Coarse coarse = coarsen(complex_.blocks, planes_, touched, map_.charts);
+    complex_.blocks = std::move(coarse.blocks);
+    complex_.sheets = std::move(coarse.sheets);
+    complex_.unknown = std::move(coarse.unknown);
+    planes_ = std::move(coarse.planes);
+    for (int& b : block_of_) {
+      if (b >= 0) b = coarse.block_of[b];
+    }
+  }
+
+  /// Calls visit(node, block) for the blocks that the tets round a chart's nodes cover; more than once for some.
+  template <class Visit>
+  void for_blocks_at_nodes(int chart, const Visit& visit) const {
+    for (int node : map_.charts[chart].nodes) {
+      for (int i = topology_.node_tets_first[node]; i < topology_.node_tets_first[node + 1]; ++i) {
+        const int t = topology_.node_tets[i];
+        for (int p = pieces_.offset[t]; p < pieces_.offset[t + 1]; ++p) {
+          const int block = pieces_.component[p] < 0 ? -1 : block_of_[pieces_.component[p]];
+          if (block >= 0) visit(node, block);
+        }
+      }
+    }
+  }
+
+  bool in_box(const Vec3& place, int block) const {
+    for (int d = 0; d < 3; ++d) {
+      const auto& plane = planes_[block][d];
+      if (place[d] < cuts_.planes[d][plane[0]] - cuts_.tolerance || place[d] > cuts_.planes[d][plane[1]] + cuts_.tolerance) return false;
+    }
+    return true;
   }
 
   void find_vertices() {
@@ -418,27 +303,19 @@ class Assembly {
 
   void find_feature_vertices() {
     complex_.feature_vertices.resize(map_.charts.size());
-    for (std::size_t c = 0; c < map_.charts.size(); ++c) {
+    for (int c = 0; c < static_cast<int>(map_.charts.size()); ++c) {
       if (map_.charts[c].sign != 0) continue;
       auto& found = complex_.feature_vertices[c];
-      for (int node : map_.charts[c].nodes) {
-        for (int i = topology_.node_tets_first[node]; i < topology_.node_tets_first[node + 1]; ++i) {
-          const int t = topology_.node_tets[i];
-          for (int p = pieces_.offset[t]; p < pieces_.offset[t + 1]; ++p) {
-            if (pieces_.component[p] >= 0) add_corner_at(cuts_.image[node], pieces_.component[p], found);
-          }
-        }
-      }
+      for_blocks_at_nodes(c, [&](int node, int block) { add_corner_at(cuts_.image[node], block, found); });
       std::sort(found.begin(), found.end());
       found.erase(std::unique(found.begin(), found.end()), found.end());
     }
   }
 
-  void add_corner_at(const Vec3& place, int component, std::vector<int>& found) const {
-    if (block_of_[component] < 0) return;
+  void add_corner_at(const Vec3& place, int block, std::vector<int>& found) const {
     std::array<int, 3> side{};
     for (int d = 0; d < 3; ++d) {
-      const auto& plane = boxes_[component].plane[d];
+      const auto& plane = planes_[block][d];
       if (std::abs(place[d] - cuts_.planes[d][plane[0]]) <= cuts_.tolerance) {
         side[d] = 0;
       } else if (std::abs(place[d] - cuts_.planes[d][plane[1]]) <= cuts_.tolerance) {
@@ -448,7 +325,7 @@ class Assembly {
       }
     }
     const auto corner = std::find(kCornerCoordinates.begin(), kCornerCoordinates.end(), side) - kCornerCoordinates.begin();
-    found.push_back(complex_.blocks[block_of_[component]].corners[static_cast<std::size_t>(corner)]);
+    found.push_back(complex_.blocks[block].corners[static_cast<std::size_t>(corner)]);
   }
 
   const TetMesh& mesh_;
@@ -458,29 +335,39 @@ class Assembly {
   const Pieces& pieces_;
   std::vector<Box> boxes_;         ///< per component
   std::vector<int> block_of_;      ///< per component, or -1
-  std::vector<int> component_of_;  ///< per block
+  std::vector<int> component_of_;  ///< per block, before sheets are dropped
+  std::vector<BlockPlanes> planes_;  ///< per block
   BlockComplex complex_;
 };
 
-}  // namespace
-
-BlockComplex extract_blocks(const TetMesh& tets, const PolycuboidMap& map, const Monitor& monitor) {
+BlockComplex extract(const TetMesh& tets, const PolycuboidMap& map, const TetTopology& topology, bool all, const Monitor& monitor) {
   monitor.progress("blocks", 0);
-  validate(tets, map);
-  const TetTopology topology = find_topology(tets);
-  const SheetCuts cuts = find_sheets(tets, map, topology, monitor);
+  const SheetCuts cuts = find_sheets(tets, map, topology, all, monitor);
   monitor.progress("blocks", 0.1);
   Pieces pieces(tets, map, topology, cuts);
   pieces.run(monitor);
   monitor.progress("blocks", 0.8);
   BlockComplex complex = Assembly(tets, map, topology, cuts, pieces).run();
   const BlockReport report = check(complex, map);
-  if (!report.lost_charts.empty()) fail("charts without area in the image of the map", report.lost_charts, tets, map);
+  if (!report.lost_charts.empty()) fail("charts that bound no volume in the image of the map", report.lost_charts, tets, map);
   if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
   if (report.nonmanifold_edges > 0) fail("the boundary of the blocks is not a manifold", {}, tets, map);
   if (report.euler != euler_characteristic(tets.triangles)) fail("the blocks do not have the topology of the solid", {}, tets, map);
   monitor.progress("blocks", 1);
   return complex;
+}
+
+}  // namespace
+
+BlockComplex extract_blocks(const TetMesh& tets, const PolycuboidMap& map, const Monitor& monitor) {
+  validate(tets, map);
+  const TetTopology topology = find_topology(tets);
+  // Folds on the boundary can tear a sheet where it starts. Cutting along all of every plane cannot, but costs more.
+  try {
+    return extract(tets, map, topology, false, monitor);
+  } catch (const StageFailed&) {
+    return extract(tets, map, topology, true, monitor);
+  }
 }
 
 }  // namespace polycube

@@ -48,8 +48,9 @@ void find_planes(const PolycuboidMap& map, SheetCuts& cuts) {
 /// Fraction of the image's bounding-box face below which a chart's net area is none.
 constexpr double kNoArea = 1e-9;
 
-void find_collapsed(const TetMesh& mesh, const PolycuboidMap& map, SheetCuts& cuts) {
+void find_signs(const TetMesh& mesh, const PolycuboidMap& map, SheetCuts& cuts) {
   cuts.collapsed.assign(map.charts.size(), 0);
+  cuts.sign.assign(map.charts.size(), 0);
   for (std::size_t c = 0; c < map.charts.size(); ++c) {
     const Chart& chart = map.charts[c];
     if (chart.sign == 0) continue;
@@ -62,6 +63,8 @@ void find_collapsed(const TetMesh& mesh, const PolycuboidMap& map, SheetCuts& cu
     }
     const double extent = cuts.tolerance / kSamePlane;
     cuts.collapsed[c] = std::abs(area) <= kNoArea * extent * extent;
+    // A label can contradict the map, which alone says where the solid is.
+    cuts.sign[c] = area > 0 ? 1 : -1;
   }
 }
 
@@ -81,6 +84,9 @@ class SheetFinder {
         monitor.check();
         for (int c : charts_of_plane[plane]) {
           if (!cuts_.collapsed[c]) seed(axis, plane, c);
+        }
+        for (int t = 0; cuts_.all && t < static_cast<int>(mesh_.tets.size()); ++t) {
+          if (sheet_of_[t] < 0 && crosses(mesh_.tets[t], std::array{0, 1, 2, 3}, axis, cuts_.planes[axis][plane])) flood(t, axis, plane);
         }
         for (std::size_t i = plane_begin_; i < passed_.size(); ++i) sheet_of_[passed_[i].first] = -1;
         plane_begin_ = passed_.size();
@@ -183,6 +189,7 @@ class SheetFinder {
     }
     cuts_.unknown.assign(chart_count, -1);
     for (Sheet& sheet : cuts_.sheets) {
+      if (sheet.charts.empty()) continue;
       sheet.unknown = same.find(sheet.charts.front());
       for (int c : sheet.charts) cuts_.unknown[c] = sheet.unknown;
     }
@@ -207,10 +214,11 @@ class SheetFinder {
 
 }  // namespace
 
-SheetCuts find_sheets(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, const Monitor& monitor) {
+SheetCuts find_sheets(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, bool all, const Monitor& monitor) {
   SheetCuts cuts;
+  cuts.all = all;
   find_planes(map, cuts);
-  find_collapsed(mesh, map, cuts);
+  find_signs(mesh, map, cuts);
   SheetFinder(mesh, map, topology, cuts).run(monitor);
   return cuts;
 }

@@ -12,6 +12,7 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <OSD.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -21,7 +22,10 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <signal.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -82,8 +86,31 @@ void check_entities(const STEPControl_Reader& reader, const std::string& path) {
   }
 }
 
+/// While it lives OCCT turns a segmentation fault of its own into a Standard_Failure, which its transfer catches entity by entity: references
+/// of the wrong kind in a damaged STEP file end there. The process' own handlers come back afterwards.
+class SignalGuard {
+ public:
+  SignalGuard() {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &before_[i]);
+    OSD::SetSignal(Standard_False);
+    // Interrupts stay with whoever handles them.
+    for (std::size_t i = kFaults; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  ~SignalGuard() {
+    for (std::size_t i = 0; i < kFaults; ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  static constexpr std::size_t kFaults = 5;
+  static constexpr std::array<int, 9> kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+  std::array<struct sigaction, 9> before_{};
+};
+
 TopoDS_Shape read_step(const std::string& path) {
   const ReaderGuard guard;
+  const SignalGuard signals;
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
   check_entities(reader, path);

@@ -11,7 +11,7 @@ namespace polycube {
 enum class SurfaceKind { kPlane, kCylinder, kCone, kSphere, kTorus, kExtrusion, kRevolution, kOther };
 
 struct CadFace {
-  SurfaceKind kind = SurfaceKind::kOther;
+  SurfaceKind kind = SurfaceKind::kOther;  ///< what it is, however the file writes it (a line revolved about a parallel axis is a cylinder)
   double area = 0;             ///< mm^2
   Vec3 axis = Vec3::Zero();    ///< plane: outward normal; cylinder, cone, torus, revolution: axis; extrusion: direction; else zero. Unit.
   Vec3 centre = Vec3::Zero();  ///< a point on the axis, or in the plane

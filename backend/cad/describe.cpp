@@ -11,6 +11,7 @@
 #include <Geom2d_TrimmedCurve.hxx>
 #include <GeomAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
+#include <GeomLib_IsPlanarSurface.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <TopExp.hxx>
@@ -196,6 +197,34 @@ void sample_face(const CadModel::Shape& shape, FaceGeometry& g) {
   }
 }
 
+/// Exporters write cylinders as lines revolved and planes as B-splines; later stages ask what a face is, not how it was written.
+void recognise(const FaceGeometry& g, CadFace& info) {
+  constexpr double kAngular = 1e-9, kLinear = 1e-7;
+  if (const GeomLib_IsPlanarSurface planar(g.surface, kLinear); planar.IsPlanar()) {
+    info.kind = SurfaceKind::kPlane;
+    info.axis = g.sign * surface_normal(g, g.domain.center());
+    return;
+  }
+  if (info.kind != SurfaceKind::kRevolution) return;
+  const GeomAdaptor_Surface adaptor(g.surface);
+  const gp_Ax1 axis = adaptor.AxeOfRevolution();
+  const Handle(Adaptor3d_Curve) meridian = adaptor.BasisCurve();
+  if (meridian->GetType() == GeomAbs_Line && meridian->Line().Direction().IsParallel(axis.Direction(), kAngular)) {
+    info.kind = SurfaceKind::kCylinder;
+    info.radius = gp_Lin(axis).Distance(meridian->Line().Location());
+  } else if (meridian->GetType() == GeomAbs_Line) {
+    if (gp_Lin(axis).Distance(meridian->Line()) < kLinear) info.kind = SurfaceKind::kCone;  // else a hyperboloid
+  } else if (meridian->GetType() == GeomAbs_Circle) {
+    const gp_Circ circle = meridian->Circle();
+    const double off = gp_Lin(axis).Distance(circle.Location());
+    if (!circle.Axis().Direction().IsNormal(axis.Direction(), kAngular)) return;
+    if (std::abs(circle.Axis().Direction().XYZ().Dot(circle.Location().XYZ() - axis.Location().XYZ())) > kLinear) return;
+    info.kind = off < kLinear ? SurfaceKind::kSphere : SurfaceKind::kTorus;
+    info.radius = circle.Radius();
+    if (off < kLinear) info.centre = polycube::to_vec(circle.Location());
+  }
+}
+
 CadFace face_facts(const FaceGeometry& g, int id, const std::vector<CadEdge>& edges) {
   CadFace info;
   GProp_GProps properties;
@@ -245,6 +274,7 @@ CadFace face_facts(const FaceGeometry& g, int id, const std::vector<CadEdge>& ed
       break;
     default: info.centre = polycube::to_vec(properties.CentreOfMass()); break;
   }
+  if (g.closed_form.index() == 0) recognise(g, info);
   return info;
 }
 

@@ -15,11 +15,14 @@
 #include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <GC_MakeArcOfCircle.hxx>
+#include <ShapeCustom.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -27,6 +30,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
+#include <gp.hxx>
 #include <gp_Circ.hxx>
 #include <numbers>
 #include <sstream>
@@ -139,6 +143,20 @@ std::string loft(double size, double height) {
     circle.Add(BRepBuilderAPI_MakeEdge(curve, (k - 2.5) * std::numbers::pi / 2, (k - 1.5) * std::numbers::pi / 2).Edge());
   sections.AddWire(circle.Wire());
   return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string turned(double radius, double height, double groove) {
+  const double middle = height / 2;
+  const gp_Pnt foot(0, 0, 0), out(radius, 0, 0), below(radius, 0, middle - groove), above(radius, 0, middle + groove), top(radius, 0, height), tip(0, 0, height);
+  BRepBuilderAPI_MakeWire profile;
+  profile.Add(BRepBuilderAPI_MakeEdge(foot, out).Edge());
+  profile.Add(BRepBuilderAPI_MakeEdge(out, below).Edge());
+  profile.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(below, gp_Pnt(radius - groove, 0, middle), above).Value()).Edge());
+  profile.Add(BRepBuilderAPI_MakeEdge(above, top).Edge());
+  profile.Add(BRepBuilderAPI_MakeEdge(top, tip).Edge());
+  profile.Add(BRepBuilderAPI_MakeEdge(tip, foot).Edge());
+  const TopoDS_Shape turned = BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(profile.Wire()).Face(), gp::OZ()).Shape();
+  return text(ShapeCustom::ConvertToRevolution(turned));
 }
 
 std::string half_cylinder(double radius, double height) {

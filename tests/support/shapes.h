@@ -17,6 +17,7 @@ std::string filleted_box(double size, double radius);               ///< cube wi
 std::string chamfered_box(double size, double leg);                 ///< cube with one edge along Z cut at 45 degrees
 std::string hollow_box(double size);                                ///< cube with a cubic void: two shells
 std::string loft(double size, double height);                       ///< square to circle: ruled B-spline sides
+std::string turned(double radius, double height, double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
 std::string half_cylinder(double radius, double height);            ///< cut by the plane y = 0, y >= 0 stays
 
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).

@@ -34,6 +34,7 @@ std::vector<Case> cases() {
                         {"bracket", shapes::l_bracket(10, 2, 5)},
                         {"filleted", shapes::filleted_box(10, 2)},
                         {"half", shapes::half_cylinder(2, 3)},
+                        {"turned", shapes::turned(3, 10, 1)},
                         {"loft", shapes::loft(4, 5)}};
   const std::size_t count = all.size();
   for (std::size_t i = 0; i < count; ++i) all.push_back({all[i].name, shapes::moved(all[i].brep, 37, 3, -2, 5)});

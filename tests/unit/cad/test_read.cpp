@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <numbers>
 
 #include "cad/cad.h"
@@ -85,6 +86,27 @@ TEST(Read, DescribesSurfaces) {
     }
   }
   EXPECT_EQ(cylinders, 1);
+}
+
+TEST(Read, RecognisesRevolvedSurfaces) {
+  const CadModel shaft = model(shapes::turned(3, 10, 1));
+  std::map<SurfaceKind, int> kinds;
+  for (int f = 1; f <= shaft.face_count(); ++f) {
+    const CadFace& face = shaft.face(f);
+    ++kinds[face.kind];
+    if (face.kind == SurfaceKind::kCylinder) {
+      EXPECT_NEAR(face.radius, 3, 1e-9);
+    }
+    if (face.kind == SurfaceKind::kTorus) {
+      EXPECT_NEAR(face.radius, 1, 1e-9);
+    }
+    if (face.kind == SurfaceKind::kPlane) {
+      EXPECT_GT(face.axis.dot(face.centre - Vec3(0, 0, 5)), 4.9);
+    }
+  }
+  EXPECT_EQ(kinds[SurfaceKind::kCylinder], 2);
+  EXPECT_EQ(kinds[SurfaceKind::kTorus], 1);
+  EXPECT_EQ(kinds[SurfaceKind::kPlane], 2);
 }
 
 TEST(Read, DihedralAngles) {

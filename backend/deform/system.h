@@ -1,0 +1,61 @@
+// The linear systems of the map: one per coordinate, nodes of a chart sharing one unknown.
+#pragma once
+
+#include <Eigen/SparseCholesky>
+#include <numeric>
+
+#include "core/mesh.h"
+
+namespace polycube {
+
+using Vector = Eigen::VectorXd;
+
+class UnionFind {
+ public:
+  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  void unite(int a, int b) {
+    a = find(a);
+    b = find(b);
+    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+/// Gradients of the four hat functions of a tet (columns, 1/mm) and its volume (mm^3).
+struct Element {
+  Eigen::Matrix<double, 3, 4> gradient;
+  double volume;
+};
+
+Element make_element(const std::vector<Vec3>& points, const Tet& tet);
+
+/// Jacobian of the map that takes the tet's points to their images.
+Mat3 jacobian(const Tet& tet, const Element& element, const std::vector<Vec3>& image);
+
+/// One coordinate: least squares of gradients. Unknown 0 is held at zero, since a coordinate is known up to a constant only.
+class Coordinate {
+ public:
+  Coordinate(const TetMesh& mesh, const std::vector<Element>& elements, UnionFind groups);
+
+  bool ok() const { return ok_; }
+  int unknowns() const { return count_; }
+  int unknown(int node) const { return unknown_[node]; }
+  /// `target`: per tet the wished gradient of this coordinate. Returns one value per node.
+  Vector solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Vec3>& target) const;
+  /// Inverse of the system times a right side with one entry per unknown (entry 0 is ignored and comes back 0).
+  Vector precondition(const Vector& rhs) const;
+
+ private:
+  std::vector<int> unknown_;
+  int count_ = 0;
+  bool ok_ = false;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+};
+
+}  // namespace polycube

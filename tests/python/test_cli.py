@@ -1,7 +1,9 @@
 """The command line: exit statuses, messages, files, cancel."""
 
+import collections
 import json
 import os
+import random
 import signal
 import subprocess
 import time
@@ -85,6 +87,26 @@ class Cli(FolderTest):
             with self.subTest(name):
                 self.refuses(self.path(name))
         self.assertIn("missing.step", self.refuses(self.path("missing.step")))
+
+    def test_damaged_step_files_do_not_crash(self):
+        plate().exportStep(self.path("good.step"))
+        with open(self.path("good.step")) as file:
+            text = file.read()
+        start = text.index("DATA;")
+        chance = random.Random(1)
+        statuses = collections.Counter()
+        for _ in range(25):
+            damaged = list(text)
+            for _ in range(chance.choice((1, 3, 20))):
+                damaged[chance.randrange(start, len(text))] = chance.choice("0123456789 ,;#()")
+            with open(self.path("bad.step"), "w") as file:
+                file.write("".join(damaged))
+            run = self.run_program("mesh", self.path("bad.step"), "-o", self.path("a.vtu"), "--order", "1", "--size", "4")
+            statuses[run.returncode] += 1
+            self.assertIn(run.returncode, (0, 1, 2), run.stderr)
+            if run.returncode:
+                self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+        self.assertGreater(statuses[1], 10)
 
     def test_no_arguments(self):
         for arguments in ([], ["mesh"], ["nonsense"], ["mesh", "a.step"]):

@@ -1,38 +1,31 @@
 #include "pad/pad.h"
 
-#include <algorithm>
-
 #include "core/error.h"
 #include "pad/rings.h"
-#include "pad/sheet.h"
 #include "pad/surface.h"
 
 namespace polycube {
 
-namespace {
-
-int pad_surface(const CadModel& model, PaddedMesh& padded, const Monitor& monitor) {
-  const HexTopology topology = build_topology(padded.mesh, padded.association.quads);
-  const auto edges = boundary_edges(padded.mesh, padded.association.quads, topology);
-  const auto angles = dihedral_angles(model, padded.mesh, padded.association, edges);
-  SheetCut cut{std::vector<char>(padded.mesh.hexes.size(), 1), choose_surface(padded.mesh, padded.association, edges, angles, monitor)};
-  const int quads = static_cast<int>(std::count(cut.surface.begin(), cut.surface.end(), 1));
-  if (quads > 0) insert_sheet(padded.mesh, padded.association, cut);
-  return quads;
-}
-
-}  // namespace
-
 PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report) {
   const auto faults_before = check(mesh, association);
   if (!faults_before.empty()) throw StageFailed("pad", "the mesh handed to padding is not sound: " + faults_before[0]);
-  PaddedMesh padded{mesh, association};
-  monitor.progress("pad", 0.1);
+  PaddedMesh padded;
   PadReport counts;
-  counts.surface_quads = pad_surface(model, padded, monitor);
-  monitor.progress("pad", 0.4);
-  counts.rings = insert_rings(model, padded, monitor);
-  monitor.progress("pad", 0.9);
+  double best = -1;
+  double done = 0.1;
+  for (const LayerPlan plan : {LayerPlan::kEach, LayerPlan::kTogether, LayerPlan::kTogetherThrough}) {
+    monitor.progress("pad", done);
+    done += 0.25;
+    PaddedMesh candidate{mesh, association};
+    const LayerCount layers = insert_surface_layers(model, candidate, plan, monitor);
+    const RingCount rings = insert_rings(model, candidate, monitor);
+    if (layers.gain + rings.gain > best) {
+      best = layers.gain + rings.gain;
+      padded = std::move(candidate);
+      counts = {layers.quads, rings.sheets, 0};
+    }
+    if (layers.sheets <= 1) break;  // the first plan tries every way for a single region
+  }
   counts.added_hexes = static_cast<int>(padded.mesh.hexes.size() - mesh.hexes.size());
   const auto faults = check(padded.mesh, padded.association);
   if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);

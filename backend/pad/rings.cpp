@@ -219,10 +219,10 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
 
 }  // namespace
 
-int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor) {
+RingCount insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor) {
   std::set<std::array<int, 2>> given_up;  // node, patch
-  int sheets = 0;
-  for (bool again = true; again && sheets < kMaxSheets;) {
+  RingCount count;
+  for (bool again = true; again && count.sheets < kMaxSheets;) {
     again = false;
     std::vector<char> on_edge(padded.mesh.points.size(), 0);
     for (std::size_t v = 0; v < on_edge.size(); ++v) on_edge[v] = padded.association.point_cad[v].dim <= 1;
@@ -246,12 +246,13 @@ int insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monit
       }
       const SheetCut cut = as_cut(whole, best);
       insert_sheet(padded.mesh, padded.association, cut);
-      ++sheets;
+      ++count.sheets;
+      count.gain += best.gain;
       again = true;
       break;
     }
   }
-  return sheets;
+  return count;
 }
 
 }  // namespace polycube

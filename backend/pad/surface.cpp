@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <set>
 
-#include "pad/sheet.h"
+#include "core/hexahedron.h"
 
 namespace polycube {
 
@@ -15,42 +16,19 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 // Across an edge wider than this a layer cannot end: its one cell there would be too flat.
 constexpr double kWidestEnd = 130 * kPi / 180;
+// From here on an edge is concave: a layer can go on into the solid.
+constexpr double kConcave = 215 * kPi / 180;
 // What a padded quad costs. A bore's four lines of three cells (60 degrees each) are not worth a layer; one line of one cell (180 degrees) is.
 constexpr double kQuadPrice = 0.15;
 
-// Smooth regions of the boundary and what it costs to pad them.
-struct RegionGraph {
-  struct Link {
-    int r, s;
-    std::array<double, 4> cost;  // neither, r, s, both
-  };
-  std::vector<int> region;             // per quad
-  std::vector<double> own;             // per region: cost of padding less cost of not padding
-  std::vector<Link> links;
-  std::vector<std::vector<int>> links_of;
-
+struct Regions {
+  std::vector<int> of_quad;
+  std::vector<double> own;     // cost of padding less cost of not padding, at edges inside the region
+  std::vector<int> patch;      // least patch: the region's name while sheets come and go
   int size() const { return static_cast<int>(own.size()); }
-  double change(const std::vector<char>& chosen, int r) const {
-    double delta = chosen[r] ? -own[r] : own[r];
-    for (int l : links_of[r]) {
-      const Link& link = links[l];
-      const int state = (chosen[link.r] ? 1 : 0) + (chosen[link.s] ? 2 : 0);
-      delta += link.cost[state ^ (link.r == r ? 1 : 2)] - link.cost[state];
-    }
-    return delta;
-  }
-  double total(const std::vector<char>& chosen) const {
-    double sum = 0;
-    for (int r = 0; r < size(); ++r) sum += chosen[r] ? own[r] : 0;
-    for (const Link& link : links) sum += link.cost[(chosen[link.r] ? 1 : 0) + (chosen[link.s] ? 2 : 0)];
-    return sum;
-  }
 };
 
-double both_cost(int hexes, double angle) { return angle_cost(2, angle) + angle_cost(hexes + 2, 2 * kPi); }
-double one_cost(int hexes, double angle) { return angle_cost(1, angle) + angle_cost(hexes + 1, kPi); }
-
-RegionGraph build_regions(const Association& association, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles) {
+Regions find_regions(const Association& association, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles) {
   const int quads = static_cast<int>(association.quads.size());
   std::vector<int> root(quads);
   std::iota(root.begin(), root.end(), 0);
@@ -59,123 +37,242 @@ RegionGraph build_regions(const Association& association, const std::vector<Boun
     return x;
   };
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (angles[e] <= kWidestEnd) continue;
+    if (angles[e] <= kWidestEnd || angles[e] >= kConcave) continue;
     const int x = find(edges[e].quads[0]), y = find(edges[e].quads[1]);
     root[std::max(x, y)] = std::min(x, y);
   }
-  RegionGraph graph;
-  graph.region.assign(quads, -1);
+  Regions regions;
+  regions.of_quad.resize(quads);
   for (int q = 0; q < quads; ++q) {
     const int r = find(q);
     if (r == q) {
-      graph.region[q] = graph.size();
-      graph.own.push_back(0);
+      regions.of_quad[q] = regions.size();
+      regions.own.push_back(0);
+      regions.patch.push_back(association.quad_patch[q]);
     } else {
-      graph.region[q] = graph.region[r];
+      regions.of_quad[q] = regions.of_quad[r];
     }
-    graph.own[graph.region[q]] += kQuadPrice;
+    regions.own[regions.of_quad[q]] += kQuadPrice;
+    regions.patch[regions.of_quad[q]] = std::min(regions.patch[regions.of_quad[q]], association.quad_patch[q]);
   }
-  std::vector<RegionGraph::Link> links;
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    const int n = edges[e].hexes, r = graph.region[edges[e].quads[0]], s = graph.region[edges[e].quads[1]];
-    const double none = angle_cost(n, angles[e]), both = both_cost(n, angles[e]);
-    if (r == s) {
-      graph.own[r] += both - none;
+    const int r = regions.of_quad[edges[e].quads[0]];
+    if (r != regions.of_quad[edges[e].quads[1]]) continue;
+    regions.own[r] += angle_cost(2, angles[e]) + angle_cost(edges[e].hexes + 2, 2 * kPi) - angle_cost(edges[e].hexes, angles[e]);
+  }
+  return regions;
+}
+
+// Walks round the edge (x, y) from `side` through its hex: the sides by which the hexes are left, up to the boundary or back to the start.
+struct Fan {
+  std::vector<int> exits;
+  int quad = -1;  // boundary quad reached, -1 if the fan closes
+};
+
+Fan walk_round(const HexMesh& mesh, const HexTopology& topology, int side, int x, int y) {
+  Fan fan;
+  for (int at = side;;) {
+    const int hex = at / 6, exit = 6 * hex + other_face(mesh.hexes[hex], at % 6, x, y);
+    fan.exits.push_back(exit);
+    at = topology.mate[exit];
+    if (at < 0) {
+      fan.quad = -1 - at;
+      return fan;
+    }
+    if (at == side) return fan;
+  }
+}
+
+// The best layer found for a region so far.
+struct Choice {
+  SheetCut cut;
+  double gain = 0;
+  int quads = 0;
+};
+
+class Chooser {
+ public:
+  explicit Chooser(const TrialMesh& whole)
+      : whole_(whole), mesh_(whole.padded.mesh), association_(whole.padded.association),
+        edges_(boundary_edges(mesh_, association_.quads, whole.topology)), angles_(dihedral_angles(whole.model, mesh_, association_, edges_)),
+        regions_(find_regions(association_, edges_, angles_)) {}
+
+  const Regions& regions() const { return regions_; }
+
+  Choice choose(int region) const {
+    Choice best;
+    std::vector<char> alone(regions_.own.size(), 0);
+    alone[region] = 1;
+    consider(alone, true, best);
+    consider(beyond_concave(alone), false, best);
+    consider(std::vector<char>(regions_.own.size(), 1), false, best);
+    return best;
+  }
+
+  Choice choose_together(bool through) const {
+    Choice best;
+    std::vector<char> wanted(regions_.own.size());
+    for (std::size_t r = 0; r < wanted.size(); ++r) wanted[r] = regions_.own[r] < 0;
+    if (through) {
+      consider(wanted, true, best);
     } else {
-      const double one = one_cost(n, angles[e]);
-      links.push_back({std::min(r, s), std::max(r, s), {none, one, one, both}});
+      consider(beyond_concave(wanted), false, best);
     }
+    return best;
   }
-  std::stable_sort(links.begin(), links.end(), [](const auto& x, const auto& y) { return std::array{x.r, x.s} < std::array{y.r, y.s}; });
-  graph.links_of.resize(graph.own.size());
-  for (const auto& link : links) {
-    if (!graph.links.empty() && graph.links.back().r == link.r && graph.links.back().s == link.s) {
-      for (int k = 0; k < 4; ++k) graph.links.back().cost[k] += link.cost[k];
-      continue;
-    }
-    graph.links_of[link.r].push_back(static_cast<int>(graph.links.size()));
-    graph.links_of[link.s].push_back(static_cast<int>(graph.links.size()));
-    graph.links.push_back(link);
-  }
-  return graph;
-}
 
-// Flips of one region or of two neighbours while the total falls.
-void descend(const RegionGraph& graph, std::vector<char>& chosen) {
-  constexpr double kGain = 1e-9;
-  for (bool improved = true; improved;) {
-    improved = false;
-    for (int r = 0; r < graph.size(); ++r) {
-      if (graph.change(chosen, r) < -kGain) {
-        chosen[r] ^= 1;
-        improved = true;
+ private:
+  // Rates a layer under the chosen regions; where it cannot be opened it takes in one more region.
+  void consider(std::vector<char> chosen, bool extend, Choice& best) const {
+    for (int attempt = 0; attempt < regions_.size(); ++attempt) {
+      std::vector<char> surface(association_.quads.size());
+      for (std::size_t q = 0; q < surface.size(); ++q) surface[q] = chosen[regions_.of_quad[q]];
+      SheetCut cut{std::vector<char>(mesh_.hexes.size(), 1), surface};
+      if (extend && !extend_cut(mesh_, whole_.topology, edges_, angles_, surface, cut)) return;
+      const TrialResult result = try_sheet(whole_, cut);
+      if (result.obstacles.empty()) {
+        const int quads = static_cast<int>(std::count(surface.begin(), surface.end(), 1));
+        const double gain = result.gain - kQuadPrice * quads;
+        if (gain > best.gain) best = {std::move(cut), gain, quads};
+        return;
+      }
+      if (!take_in(result.obstacles, chosen)) return;
+    }
+  }
+
+  std::vector<char> beyond_concave(std::vector<char> chosen) const {
+    for (bool grown = true; grown;) {
+      grown = false;
+      for (std::size_t e = 0; e < edges_.size(); ++e) {
+        const int r = regions_.of_quad[edges_[e].quads[0]], s = regions_.of_quad[edges_[e].quads[1]];
+        if (angles_[e] < kConcave || chosen[r] == chosen[s]) continue;
+        chosen[r] = chosen[s] = 1;
+        grown = true;
       }
     }
-    for (const auto& link : graph.links) {
-      const double first = graph.change(chosen, link.r);
-      chosen[link.r] ^= 1;
-      if (first + graph.change(chosen, link.s) < -kGain) {
-        chosen[link.s] ^= 1;
-        improved = true;
-      } else {
-        chosen[link.r] ^= 1;
-      }
-    }
+    return chosen;
   }
-}
 
-// Regions chosen from several starts; the best.
-std::vector<char> search(const RegionGraph& graph) {
-  std::vector<char> none(graph.own.size(), 0), all(graph.own.size(), 1), greedy(graph.own.size());
-  for (int r = 0; r < graph.size(); ++r) greedy[r] = graph.own[r] < 0;
-  for (auto* start : {&none, &greedy, &all}) descend(graph, *start);
-  const std::vector<char>* best = &none;
-  for (auto* other : {&greedy, &all}) {
-    if (graph.total(*other) < graph.total(*best) - 1e-9) best = other;
-  }
-  return *best;
-}
-
-std::vector<char> quads_of(const RegionGraph& graph, const std::vector<char>& chosen) {
-  std::vector<char> surface(graph.region.size());
-  for (std::size_t q = 0; q < surface.size(); ++q) surface[q] = chosen[graph.region[q]];
-  return surface;
-}
-
-}  // namespace
-
-std::vector<char> choose_surface(const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges,
-                                 const std::vector<double>& angles, const Monitor& monitor) {
-  const RegionGraph graph = build_regions(association, edges, angles);
-  std::vector<char> chosen = search(graph);
-  std::vector<std::vector<int>> node_regions(mesh.points.size());
-  for (std::size_t q = 0; q < association.quads.size(); ++q) {
-    for (int node : association.quads[q]) node_regions[node].push_back(graph.region[q]);
-  }
-  // A layer that cannot be opened at a node takes in one more region there; with all regions it always can.
-  while (std::find(chosen.begin(), chosen.end(), 1) != chosen.end()) {
-    monitor.check();
-    const SheetCut cut{std::vector<char>(mesh.hexes.size(), 1), quads_of(graph, chosen)};
-    const auto obstacles = sheet_obstacles(mesh, association, cut);
-    if (obstacles.empty()) break;
-    bool extended = false;
-    for (int node : obstacles) {
+  bool take_in(const std::vector<int>& nodes, std::vector<char>& chosen) const {
+    bool grown = false;
+    for (int v : nodes) {
       int cheapest = -1;
-      double least = std::numeric_limits<double>::infinity();
-      for (int r : node_regions[node]) {
-        const double delta = chosen[r] ? least : graph.change(chosen, r);
-        if (delta < least) {
-          least = delta;
-          cheapest = r;
-        }
+      for (int q : whole_.node_quads[v]) {
+        const int r = regions_.of_quad[q];
+        if (!chosen[r] && (cheapest < 0 || regions_.own[r] < regions_.own[cheapest])) cheapest = r;
       }
       if (cheapest < 0) continue;
       chosen[cheapest] = 1;
-      extended = true;
+      grown = true;
     }
-    if (!extended) return std::vector<char>(association.quads.size(), 0);
+    return grown;
   }
-  return quads_of(graph, chosen);
+
+  const TrialMesh& whole_;
+  const HexMesh& mesh_;
+  const Association& association_;
+  std::vector<BoundaryEdge> edges_;
+  std::vector<double> angles_;
+  Regions regions_;
+};
+
+}  // namespace
+
+bool extend_cut(const HexMesh& mesh, const HexTopology& topology, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles,
+                const std::vector<char>& region, SheetCut& cut) {
+  constexpr char kOutside = 0, kInside = 1, kUnknown = 2;
+  std::vector<char> inner(topology.mate.size(), 0);  // per side: a face of the cut seen from inside
+  std::vector<int> queue;
+  const auto add = [&](int side) {
+    if (inner[side]) return;
+    inner[side] = 1;
+    queue.push_back(side);
+  };
+  const auto is_cut = [&](int side) { return inner[side] || (topology.mate[side] >= 0 && inner[topology.mate[side]]); };
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto [first, second] = edges[e].quads;
+    if (angles[e] < kConcave || region[first] == region[second] || edges[e].hexes < 2) continue;
+    const Fan fan = walk_round(mesh, topology, topology.quad_side[region[first] ? first : second], edges[e].a, edges[e].b);
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int j = 1; j < edges[e].hexes; ++j) {
+      const double cost = angle_cost(edges[e].hexes - j + 2, angles[e]) + angle_cost(j + 2, 2 * kPi);
+      if (cost >= least) continue;
+      least = cost;
+      best = j;
+    }
+    add(fan.exits[best - 1]);
+  }
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const int side = queue[i];
+    for (int k = 0; k < 4; ++k) {
+      const Hex& hex = mesh.hexes[side / 6];
+      const auto& corners = kHexFaces[side % 6];
+      const int x = hex[corners[k]], y = hex[corners[(k + 1) % 4]];
+      const Fan fan = walk_round(mesh, topology, side, x, y);
+      if (fan.quad >= 0) {
+        // The cut ends at the boundary, or meets the region there from inside.
+        const Fan behind = walk_round(mesh, topology, topology.mate[side], x, y);
+        if (region[behind.quad]) return false;
+        continue;
+      }
+      const int count = static_cast<int>(fan.exits.size());
+      if (std::any_of(fan.exits.begin(), fan.exits.end() - 1, is_cut)) continue;
+      add(fan.exits[count / 2 - 1]);
+    }
+  }
+  // Hexes on the inner side, by flooding from both sides of the cut.
+  cut.inside.assign(mesh.hexes.size(), kUnknown);
+  cut.surface = region;
+  std::vector<int> front;
+  const auto mark = [&](int hex, char what) {
+    if (cut.inside[hex] == kUnknown) {
+      cut.inside[hex] = what;
+      front.push_back(hex);
+    }
+    return cut.inside[hex] == what;
+  };
+  for (std::size_t q = 0; q < region.size(); ++q) {
+    if (region[q] && !mark(topology.quad_side[q] / 6, kInside)) return false;
+  }
+  for (int side : queue) {
+    if (!mark(side / 6, kInside) || !mark(topology.mate[side] / 6, kOutside)) return false;
+  }
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    for (int f = 0; f < 6; ++f) {
+      const int side = 6 * front[i] + f;
+      if (topology.mate[side] >= 0 && !is_cut(side) && !mark(topology.mate[side] / 6, cut.inside[front[i]])) return false;
+    }
+  }
+  return true;
+}
+
+LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, LayerPlan plan, const Monitor& monitor) {
+  LayerCount count;
+  const auto insert = [&](const Choice& best) {
+    if (best.quads == 0) return false;
+    insert_sheet(padded.mesh, padded.association, best.cut);
+    ++count.sheets;
+    count.quads += best.quads;
+    count.gain += best.gain;
+    return true;
+  };
+  if (plan != LayerPlan::kEach) {
+    const TrialMesh whole(model, padded);
+    insert(Chooser(whole).choose_together(plan == LayerPlan::kTogetherThrough));
+  }
+  std::set<int> tried;  // regions by their name: one layer is enough for each
+  for (bool again = true; again;) {
+    again = false;
+    const TrialMesh whole(model, padded);
+    const Chooser chooser(whole);
+    for (int r = 0; r < chooser.regions().size() && !again; ++r) {
+      if (chooser.regions().own[r] >= 0 || !tried.insert(chooser.regions().patch[r]).second) continue;
+      monitor.check();
+      again = insert(chooser.choose(r));
+    }
+  }
+  return count;
 }
 
 }  // namespace polycube

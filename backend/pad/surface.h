@@ -1,13 +1,30 @@
-// Which boundary quads need a layer under them.
+// Layers under smooth regions of the boundary on which the grid has an edge.
 #pragma once
 
-#include "pad/angles.h"
+#include "pad/trial.h"
 
 namespace polycube {
 
-/// Per boundary quad: whether it gets a layer. Least total angle_cost over the edges plus a price per quad, among the choices that are whole smooth
-/// regions and fit for insert_sheet.
-std::vector<char> choose_surface(const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges,
-                                 const std::vector<double>& angles, const Monitor& monitor);
+/// How the regions that need a layer get it.
+enum class LayerPlan {
+  kEach,             ///< one after the other
+  kTogether,         ///< one layer under all of them and what lies beyond their concave edges
+  kTogetherThrough,  ///< one layer under all of them, going on straight through the solid from their concave edges
+};
+
+struct LayerCount {
+  int sheets = 0;
+  int quads = 0;    ///< boundary quads that got a layer
+  double gain = 0;  ///< fall of the total angle cost, less prices
+};
+
+/// Finds smooth regions (quads joined across edges that a layer cannot end at) whose edges would be cheaper with a layer, and inserts layers. For a single
+/// region the best of: under it alone, going on through the solid from its concave edges; under it and all beyond its concave edges; under everything.
+LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, LayerPlan plan, const Monitor& monitor);
+
+/// Carries a surface cut on from its concave edges straight through the solid (at an edge with four hexes through the face opposite) and says
+/// which hexes are inside. `region` flags boundary quads. False if the cut does not separate the mesh.
+bool extend_cut(const HexMesh& mesh, const HexTopology& topology, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles,
+                const std::vector<char>& region, SheetCut& cut);
 
 }  // namespace polycube

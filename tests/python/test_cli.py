@@ -10,10 +10,7 @@ import time
 import unittest
 
 import numpy as np
-import Part
-from support import PROGRAM, VECTOR, FolderTest, box, cylinder, plate
-
-import FreeCAD
+from support import PROGRAM, VECTOR, FolderTest, FreeCAD, Part, box, cylinder, plate
 
 
 class Cli(FolderTest):

@@ -10,7 +10,7 @@ import Part
 from FreeCAD import Rotation, Vector
 
 from freecad import polycube
-from freecad.polycube import api, job, objects, shapes
+from freecad.polycube import api, fem_mesh, job, objects, shapes
 
 
 def moved(shape, placement=None, scale=1.0):
@@ -217,6 +217,13 @@ class FemMeshObject(DocumentTest):
             n1, n2, _, n4, n5 = [obj.FemMesh.getNodeById(node) for node in obj.FemMesh.getElementNodes(cell)[:5]]
             self.assertLess((n2 - n1).cross(n4 - n1).dot(n5 - n1), 0)
 
+    def test_quality_of_the_fem_mesh_is_that_of_the_arrays(self):
+        part = self.feature(Part.makeCylinder(10, 30))
+        obj = polycube.create_fem_mesh(part, size=5)
+        numbers, quality = fem_mesh.node_quality(obj.FemMesh)
+        self.assertEqual(set(numbers), set(obj.FemMesh.Nodes))
+        self.assertAlmostEqual(min(quality), obj.MinScaledJacobian, delta=1e-6)
+
     def test_mid_nodes_between_their_corners(self):
         obj = polycube.create_fem_mesh(self.box(), size=5)
         edges = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
@@ -320,6 +327,10 @@ class Helpers(unittest.TestCase):
                 work.finish(-11, "some text\nSegmentation fault\n")
         self.assertIn("-11", str(caught.exception))
         self.assertIn("Segmentation fault", str(caught.exception))
+
+    def test_a_failed_stage_says_where(self):
+        error = polycube.StageFailed("two charts overlap", "label", ["Face3", "Face7"])
+        self.assertEqual(str(error), "label: two charts overlap (Face3, Face7)")
 
     def test_transaction_is_taken_back(self):
         document = FreeCAD.newDocument()

@@ -241,6 +241,17 @@ class Warnings(SolverTest):
         warnings = objects.set_mesh(obj, result, {"size": 5})
         self.assertTrue(any("heat flux" in line for line in warnings), warnings)
 
+    def test_entities_that_the_mesh_does_not_capture(self):
+        self.document = FreeCAD.newDocument()
+        part = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        analysis, _ = self.analysis(part, "Face1")
+        result = polycube.mesh(part, size=5)
+        result.report["cad"]["faces"]["lost"] = ["Face1"]
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        self.assertIn("Support: the mesh does not capture Face1", objects.set_mesh(obj, result, {"size": 5}))
+
     def test_groups_replace_a_search_that_misses_nodes(self):
         """A mesh whose nodes are 1e-6 mm off the face: FreeCAD's search finds none of them, the group does."""
         self.document = FreeCAD.newDocument()
@@ -248,10 +259,13 @@ class Warnings(SolverTest):
         self.document.recompute()
         analysis, _ = self.analysis(part, "Face1")
         result = polycube.mesh(part, size=5)
+        force = analysis.addObject(ObjectsFem.makeConstraintForce(self.document, "Push"))[0]
+        force.References = [(part, "Face1")]
         result.nodes[result.groups["Face1"]["nodes"]] += (1e-6, 0, 0)
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
-        objects.set_mesh(obj, result, {"size": 5})
+        warnings = objects.set_mesh(obj, result, {"size": 5})
+        self.assertTrue(any("Push" in line and "force gets lost" in line for line in warnings), warnings)
         names = [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups]
         self.assertIn("Support_Nodes", names)
         group = obj.FemMesh.Groups[names.index("Support_Nodes")]

@@ -17,6 +17,10 @@ class StageFailed(PolycubeError, RuntimeError):
         self.stage = stage
         self.entities = list(entities)
 
+    def __str__(self):
+        where = " ({})".format(", ".join(self.entities)) if self.entities else ""
+        return (self.stage + ": " if self.stage else "") + super().__str__() + where
+
 
 class Cancelled(PolycubeError, RuntimeError):
     """The user cancelled, or the time limit passed."""

@@ -6,6 +6,10 @@ from . import engine
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
 
 
+#: right-handed neighbours of the eight corners in SMESH's order, which winds the other way than VTK's
+_SMESH_NEIGHBOURS = [[3, 1, 4], [0, 2, 5], [1, 3, 6], [2, 0, 7], [5, 7, 0], [6, 4, 1], [7, 5, 2], [4, 6, 3]]
+
+
 def build(result):
     """Fem.FemMesh with cells, boundary quads and edges in SMESH order, and groups Face3, Edge5, Vertex2, Solid1.
 
@@ -35,6 +39,26 @@ def build(result):
     return mesh
 
 
+def node_quality(mesh):
+    """(node numbers, per node the least scaled Jacobian of its cells) of a Fem.FemMesh of hexahedra."""
+    import numpy
+
+    points = mesh.Nodes
+    cells = numpy.array([mesh.getElementNodes(cell) for cell in mesh.Volumes])
+    # row i of the coordinates is node i; numbers that are not in use stay zero
+    coordinates = numpy.zeros((max(points) + 1, 3))
+    coordinates[list(points)] = [(point.x, point.y, point.z) for point in points.values()]
+    corners = coordinates[cells[:, :8]]
+    quality = numpy.ones(len(cells))
+    for corner, neighbours in enumerate(_SMESH_NEIGHBOURS):
+        edges = corners[:, neighbours] - corners[:, corner, None]
+        edges /= numpy.maximum(numpy.linalg.norm(edges, axis=2, keepdims=True), 1e-300)
+        quality = numpy.minimum(quality, numpy.linalg.det(edges))
+    worst = numpy.ones(len(coordinates))
+    numpy.minimum.at(worst, cells, quality[:, None])
+    return list(points), worst[list(points)].tolist()
+
+
 def add_group(mesh, name, kind, elements):
     """Adds a group of `kind` Node, Edge, Face or Volume."""
     if elements:
@@ -47,8 +71,8 @@ def add_constraint_groups(mesh, result, part, analysis):
     A group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So it is written only where the
     search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Materials get `<Material>_Volumes` where there are several.
     """
-    warnings, node_groups = [], []
-    materials = []
+    warnings, node_groups, materials = [], [], []
+    lost = {name for kind in result.report["cad"].values() for name in kind["lost"]}
     for member in analysis.Group:
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
         if kind in _TETRAHEDRA_ONLY or member.TypeId in _TETRAHEDRA_ONLY:
@@ -58,13 +82,13 @@ def add_constraint_groups(mesh, result, part, analysis):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
             references = _references(member, part)
-            warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name not in result.groups]
+            warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name in lost]
             references = [name for name in references if name in result.groups and not name.startswith("Solid")]
             nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
             if references and set(nodes) - _found(mesh, part, references):
                 node_groups.append((member.Name + "_Nodes", nodes))
-                if member.isDerivedFrom("Fem::ConstraintForce"):
-                    warnings.append("{}: some curved edges had to stay straight; part of the force may get lost, use pressure".format(member.Label))
+            if member.isDerivedFrom("Fem::ConstraintForce"):
+                warnings += _lost_force(mesh, result, part, member, references)
     # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
         add_group(mesh, name, "Node", nodes)
@@ -73,6 +97,15 @@ def add_constraint_groups(mesh, result, part, analysis):
             if any(obj == part for obj, _ in material.References):
                 add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
     return warnings
+
+
+def _lost_force(mesh, result, part, member, references):
+    """FreeCAD finds the mesh faces that carry a force by geometry alone, groups do not help it."""
+    for name in references:
+        if name.startswith("Face"):
+            found, there = len(mesh.getFacesByFace(part.Shape.getElement(name))), len(result.groups[name]["quads"])
+            if found < there:
+                yield "{}: FreeCAD finds {} of the {} mesh faces on {}, part of the force gets lost".format(member.Label, found, there, name)
 
 
 def _references(member, part):

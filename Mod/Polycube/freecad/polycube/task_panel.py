@@ -8,9 +8,9 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import api, engine, job, objects, option_table, resources, shapes
+from . import api, engine, fem_mesh, job, objects, option_table, resources, shapes
 from .errors import Cancelled, PolycubeError, StageFailed
-from .histogram import Histogram
+from .histogram import COLOURS, Histogram
 
 _TITLE = "Hexahedral mesh"
 
@@ -18,6 +18,14 @@ _TITLE = "Hexahedral mesh"
 def _number(flag):
     """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
     return int(getattr(flag, "value", flag))
+
+
+def _exists(obj):
+    """Whether the object is still in its document. One that was undone lives on for redo, and writing to it crashes FreeCAD."""
+    try:
+        return obj is not None and obj.Document.getObject(obj.Name) == obj
+    except (ReferenceError, RuntimeError, AttributeError):  # deleted; out of its document; its document closed
+        return False
 
 
 class MeshPanel:
@@ -37,6 +45,7 @@ class MeshPanel:
         self.histogram = Histogram()
         self.form.quality_layout.insertWidget(1, self.histogram)
         self.form.worst.itemSelectionChanged.connect(self._highlight)
+        self.form.colours.toggled.connect(self._colour)
         self.timer = QtCore.QTimer()
         self.timer.setInterval(100)
         self.timer.timeout.connect(self._show_time)
@@ -64,7 +73,7 @@ class MeshPanel:
         if self.process:
             self.log("The mesher is running: wait, or stop it with Cancel.", error=True)
             return False
-        if self.obj and self._parameters() != option_table.read(self.obj):
+        if _exists(self.obj) and self._parameters() != option_table.read(self.obj):
             with api.transaction(self.obj.Document, "Mesh parameters"):
                 option_table.write(self.obj, self._parameters())
         return self._close()
@@ -84,10 +93,11 @@ class MeshPanel:
             return
         self.form.log.clear()
         self.started = time.monotonic()
+        self.obj = self.obj if _exists(self.obj) else None
         self._meshed_options = self._parameters()
         try:
-            if not self.part:
-                raise PolycubeError("the mesh object is not linked to a part")
+            if not _exists(self.part):
+                raise PolycubeError("there is no part to mesh")
             shape = shapes.shape_of(self.part)
             shapes.check_solid(shape)
             self.job = job.Job(shape, self._meshed_options)
@@ -156,8 +166,7 @@ class MeshPanel:
                 raise Cancelled("cancelled")
             self._take(self.job.finish(status, self._err))
         except StageFailed as error:
-            where = " at " + ", ".join(error.entities) if error.entities else ""
-            self.log("{}: {}{}".format(error.stage or "failed", error, where), error=True)
+            self.log(str(error), error=True)
             self._select(error.entities)
         except PolycubeError as error:
             self.log(str(error), error=True)
@@ -167,8 +176,9 @@ class MeshPanel:
 
     def _take(self, result):
         """Puts the mesh into the document, in one undo step."""
-        if self.document_name not in FreeCAD.listDocuments():
-            return
+        if not _exists(self.part):
+            raise PolycubeError("the part is gone")
+        self.obj = self.obj if _exists(self.obj) else None
         document = FreeCAD.getDocument(self.document_name)
         QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
         try:
@@ -180,6 +190,7 @@ class MeshPanel:
                 warnings = objects.set_mesh(self.obj, result, self._meshed_options)
         finally:
             QtGui.QApplication.restoreOverrideCursor()
+        self.form.colours.setChecked(False)
         self.form.progress.setValue(100)
         for line in warnings:
             self.log("Warning: " + line, error=True)
@@ -194,7 +205,7 @@ class MeshPanel:
             self.job = None
 
     def _close(self):
-        self._clear_highlight()
+        self._clear_marks()
         gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None
         if gui_document and gui_document.getInEdit():
             gui_document.resetEdit()
@@ -256,6 +267,7 @@ class MeshPanel:
                 ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")),
             )
         )
+        self.form.colours.setEnabled(True)
         worst = report["worst_cells"]
         self.form.worst.setRowCount(len(worst))
         for row, cell in enumerate(worst):
@@ -267,14 +279,29 @@ class MeshPanel:
     def _highlight(self):
         """Marks the nodes of the cell selected in the list."""
         rows = self.form.worst.selectionModel().selectedRows()
-        if not rows or not self.obj:
+        if not rows or not _exists(self.obj):
             return
         cell = int(self.form.worst.item(rows[0].row(), 0).text())
         self.obj.ViewObject.HighlightedNodes = list(self.obj.FemMesh.getElementNodes(cell))
 
-    def _clear_highlight(self):
-        if self.obj and self.form.worst.selectionModel().hasSelection():
+    def _colour(self, wanted):
+        """Paints the nodes by the worst of their cells."""
+        if not _exists(self.obj):
+            return
+        if not wanted:
+            self.obj.ViewObject.resetNodeColor()
+            return
+        numbers, quality = fem_mesh.node_quality(self.obj.FemMesh)
+        shades = [QtGui.QColor(name).getRgbF()[:3] for name in COLOURS]
+        self.obj.ViewObject.NodeColor = {number: shades[min(max(int(10 * value), 0), 9)] for number, value in zip(numbers, quality)}
+
+    def _clear_marks(self):
+        if not _exists(self.obj):
+            return
+        if self.form.worst.selectionModel().hasSelection():
             self.obj.ViewObject.HighlightedNodes = []
+        if self.form.colours.isChecked():
+            self.obj.ViewObject.resetNodeColor()
 
     def _select(self, entities):
         """Shows the CAD entities at fault in the 3D view."""

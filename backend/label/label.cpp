@@ -5,12 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <set>
 
 #include "core/charts.h"
 #include "label/frame.h"
 #include "label/graph_cut.h"
 #include "label/search.h"
+#include "label/straighten.h"
 
 namespace polycube {
 namespace {
@@ -144,7 +147,13 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
 
 // Faces that got one label may still have to take two: an oblique plane half way down its slope (the hypotenuse of a rib, a side of a pyramid),
 // a bent face where its normal passes 45 degrees. Returns the half of each triangle; the search decides whether they differ.
-std::vector<int> halves(const Setup& s) {
+struct Halves {
+  std::vector<int> half;              // per triangle
+  std::vector<Vec3> slope;            // per CAD face: direction across the cut of an oblique plane, else zero
+  std::vector<double> middle;         // per CAD face: where it is cut along the slope
+};
+
+Halves halves(const Setup& s) {
   const auto n = s.mesh.triangles.size();
   std::vector<Vec3> slope(s.model.face_count() + 1, Vec3::Zero());
   std::vector<double> low(slope.size(), std::numeric_limits<double>::infinity()), high(slope.size(), -std::numeric_limits<double>::infinity());
@@ -173,15 +182,22 @@ std::vector<int> halves(const Setup& s) {
       half[t] = 2 * axis + (s.normal[t][axis] < 0);
     }
   }
-  return half;
+  std::vector<double> middle(slope.size());
+  for (std::size_t f = 0; f < slope.size(); ++f) middle[f] = (low[f] + high[f]) / 2;
+  return {std::move(half), std::move(slope), std::move(middle)};
 }
 
 // Connected triangles of one CAD face, one label and one half. Pieces much smaller than their face's largest join the neighbour they share most
 // border with.
-std::vector<int> split_regions(const Setup& s, const std::vector<int>& labels) {
+struct Split {
+  std::vector<int> region;  // per triangle
+  std::vector<int> kind;    // per region: half + 8 * label
+};
+
+Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves) {
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
-  std::vector<int> kind = halves(s);
+  std::vector<int> kind = halves.half;
   for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t];
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {
@@ -226,17 +242,50 @@ std::vector<int> split_regions(const Setup& s, const std::vector<int>& labels) {
     }
     if (!changed) break;
   }
-  return region;
+  std::vector<int> region_kind(*std::max_element(region.begin(), region.end()) + 1);
+  for (int t = 0; t < n; ++t) region_kind[region[t]] = kind[t];
+  return {std::move(region), std::move(region_kind)};
+}
+
+// The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
+std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, const std::vector<int>& region_label, const Split& split,
+                                    const Halves& halves) {
+  std::vector<BorderFunction> result;
+  std::set<std::pair<int, int>> done;
+  for (const Arc& arc : graph.arcs) {
+    const int a = arc.left, b = arc.right, face = graph.regions[a].face;
+    if (graph.regions[b].face != face || region_label[a] == region_label[b] || !done.insert(std::minmax(a, b)).second) continue;
+    const int p = split.kind[a], q = split.kind[b];
+    if (!halves.slope[face].isZero() && p % 8 != q % 8) {
+      const double sign = p % 8 > q % 8 ? 1 : -1;
+      result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }});
+      continue;
+    }
+    const int l = s.whole[face] ? p % 8 : p / 8, m = s.whole[face] ? q % 8 : q / 8;
+    if (l == m || s.flat[face]) continue;
+    Vec3 direction = Vec3::Zero();
+    direction[label_axis(l)] += label_sign(l);
+    direction[label_axis(m)] -= label_sign(m);
+    auto normal = std::make_shared<std::map<int, Vec3>>();
+    for (std::size_t t = 0; t < s.normal.size(); ++t) {
+      if (s.mesh.triangle_face[t] != face) continue;
+      for (int n : s.mesh.triangles[t]) normal->try_emplace(n, Vec3::Zero()).first->second += s.area[t] * s.normal[t];
+    }
+    result.push_back({a, b, [normal, direction](int n) { return normal->at(n).normalized().dot(direction); }});
+  }
+  return result;
 }
 
 }  // namespace
 
-Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
+Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
   const Setup s = prepare(model, mesh, options);
   monitor.progress("label", 0);
   const std::vector<int> first = cut_triangles(s, monitor);
   monitor.progress("label", 0.3);
-  RegionGraph graph = build_region_graph(mesh, split_regions(s, first));
+  const Halves half = halves(s);
+  const Split split = split_regions(s, first, half);
+  RegionGraph graph = build_region_graph(mesh, split.region);
   std::vector<int> given(model.face_count() + 1, -1);
   for (const auto& [face, label] : options.face_labels) given[face] = label;
   std::vector<int> region_label;
@@ -262,9 +311,9 @@ Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& 
 
   Labelling result;
   result.frame = s.frame;
-  result.label.resize(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) result.label[t] = region_label[graph.triangle_region[t]];
   const Violations left = find_violations(graph, points, region_label, 0.75 * edge);
+  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half), monitor)) result.label.push_back(region_label[r]);
+  split_tied_edges(mesh, result.label, monitor);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");

@@ -34,7 +34,8 @@ struct LabelReport {
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };
 
-/// The best labelling that the search finds, valid or not: whether it can be realised, the map decides.
-Labelling label(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report = nullptr);
+/// The best labelling that the search finds, valid or not: whether it can be realised, the map decides. Cuts the mesh along chart boundaries inside
+/// smooth faces, so that they run straight.
+Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report = nullptr);
 
 }  // namespace polycube

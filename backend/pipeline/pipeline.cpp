@@ -114,14 +114,15 @@ class Run {
   }
 
   MeshResult attempt(const Candidate& c) {
+    TetMesh tets = tets_;  // labelling cuts it
     MeshResult result;
     result.report = report_;
     LabelOptions label_options;
     label_options.fidelity = options_.fidelity;
     label_options.compactness = options_.compactness * c.compactness;
     label_options.face_labels = options_.labels;
-    const Labelling labelling = stage("label", [&] { return label(model_, tets_, label_options, monitor_); });
-    Features features = stage("label", [&] { return find_features(model_, tets_, labelling, c.min_bend, monitor_); });
+    const Labelling labelling = stage("label", [&] { return label(model_, tets, label_options, monitor_); });
+    Features features = stage("label", [&] { return find_features(model_, tets, labelling, c.min_bend, monitor_); });
     if (!c.features) features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};
     for (const FeatureEdge& e : features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), bend(e.edge) < c.min_bend});
@@ -132,26 +133,26 @@ class Run {
     deform_options.merge = 0.02 * size_;
     DeformReport deform_report;
     const PolycuboidMap map =
-        stage("deform", [&] { return deform(tets_, labelling.frame, labelling.label, features.charts, deform_options, monitor_, &deform_report); });
+        stage("deform", [&] { return deform(tets, labelling.frame, labelling.label, features.charts, deform_options, monitor_, &deform_report); });
     monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(deform_report.flipped) + " flipped of " +
-                 std::to_string(tets_.tets.size()) + " tets");
-    const BlockComplex blocks = stage("blocks", [&] { return extract_blocks(tets_, map, monitor_); });
+                 std::to_string(tets.tets.size()) + " tets");
+    const BlockComplex blocks = stage("blocks", [&] { return extract_blocks(tets, map, monitor_); });
     QuantizeOptions quantize_options;
     quantize_options.scale = options_.coarsest ? kCoarsest : 1 / size_;
     const Quantization quantization = stage("quantize", [&] { return quantize(blocks, map, quantize_options, monitor_); });
-    HexComplex complex = stage("hex", [&] { return build_hexes(tets_, map, blocks, quantization, monitor_); });
+    HexComplex complex = stage("hex", [&] { return build_hexes(tets, map, blocks, quantization, monitor_); });
     monitor_.log("hex: " + std::to_string(blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
 
     AssociateOptions associate_options;
     associate_options.size = typical_edge(complex.mesh);
-    associate_options.edge_chains = edge_chains(model_, tets_);
+    associate_options.edge_chains = edge_chains(model_, tets);
     for (const FeatureEdge& e : features.edges) {
       if (bend(e.edge) < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
       if (e.capture == EdgeCapture::kLost) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
     const Association association =
-        stage("pad", [&] { return associate(model_, tets_, map.charts, boundary, associate_options, monitor_); });
+        stage("pad", [&] { return associate(model_, tets, map.charts, boundary, associate_options, monitor_); });
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                  std::to_string(association.lost_vertices.size()) + " vertices without mesh");
     PadReport pad_report;

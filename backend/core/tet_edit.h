@@ -1,0 +1,34 @@
+// Local changes of a tet mesh that keep it conforming and classified.
+#pragma once
+
+#include <map>
+
+#include "core/mesh.h"
+
+namespace polycube {
+
+/// Splits edges of a tet mesh. Holds a reference; the mesh must not be changed by others meanwhile.
+class TetEditor {
+ public:
+  explicit TetEditor(TetMesh& mesh);
+
+  /// Splits edge (a, b) at `point`; all tets, triangles and segments on it become two. Returns the new node. The new triangles are appended;
+  /// triangle_parent() tells where they come from. The classification of the new node is the segment's, the triangles' face, or the solid's.
+  int split_edge(int a, int b, const Vec3& point);
+
+  /// Would all tets round (a, b) keep a positive volume?
+  bool keeps_volumes(int a, int b, const Vec3& point) const;
+
+  /// Per triangle: the triangle of the mesh as it was given that it is a part of.
+  const std::vector<int>& triangle_parent() const { return parent_; }
+
+ private:
+  std::vector<int> around(const std::vector<std::vector<int>>& at, int a, int b) const;
+
+  TetMesh& mesh_;
+  std::vector<std::vector<int>> tets_at_, triangles_at_;  // per node
+  std::map<Segment, int> segment_;                        // sorted nodes -> index
+  std::vector<int> parent_;
+};
+
+}  // namespace polycube

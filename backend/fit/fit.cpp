@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/error.h"
@@ -121,9 +122,12 @@ class Fitting {
   }
 
   // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).
+  // Stops where neither the worst determinant nor the mesh has become better for some rounds.
   void untangle(const Region& region, int iterations) {
+    constexpr int kPatience = 6;
     Energy energy;
-    for (int round = 0; round < options_.max_rounds; ++round) {
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (int round = 0, idle = 0; round < options_.max_rounds && idle < kPatience; ++round, ++idle) {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
       const double least = std::min(descent_.min_determinant(targets, region), 0.0);
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
@@ -132,8 +136,10 @@ class Fitting {
       const bool improved = note_if_best();
       monitor_.progress("fit", 0.15 + 0.35 * round / options_.max_rounds);
       const double reached = descent_.min_determinant(targets, region);
+      if (improved || reached > deepest + 0.01 * std::abs(deepest)) idle = 0;
+      deepest = std::max(deepest, reached);
       const double gain = 1 - result.energy / result.start_energy;
-      if (reached > 0 && (gain < 5e-3 || (!improved && round > 5))) break;
+      if (reached > 0 && gain < 5e-3) break;
       const double rate_of_fall = std::max(gain, 0.1);
       const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
       const double wanted = (1 - rate_of_fall) * chi;

@@ -24,7 +24,7 @@ PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& as
       padded = std::move(candidate);
       counts = {layers.quads, rings.sheets, 0};
     }
-    if (layers.sheets <= 1) break;  // the first plan tries every way for a single region
+    if (plan == LayerPlan::kEach && layers.regions <= 1) break;  // the first plan tries every way for a single region
   }
   counts.added_hexes = static_cast<int>(padded.mesh.hexes.size() - mesh.hexes.size());
   const auto faults = check(padded.mesh, padded.association);

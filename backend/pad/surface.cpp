@@ -252,7 +252,6 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
   const auto insert = [&](const Choice& best) {
     if (best.quads == 0) return false;
     insert_sheet(padded.mesh, padded.association, best.cut);
-    ++count.sheets;
     count.quads += best.quads;
     count.gain += best.gain;
     return true;
@@ -266,6 +265,9 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
     again = false;
     const TrialMesh whole(model, padded);
     const Chooser chooser(whole);
+    if (tried.empty()) {
+      count.regions = static_cast<int>(std::count_if(chooser.regions().own.begin(), chooser.regions().own.end(), [](double cost) { return cost < 0; }));
+    }
     for (int r = 0; r < chooser.regions().size() && !again; ++r) {
       if (chooser.regions().own[r] >= 0 || !tried.insert(chooser.regions().patch[r]).second) continue;
       monitor.check();

@@ -13,7 +13,7 @@ enum class LayerPlan {
 };
 
 struct LayerCount {
-  int sheets = 0;
+  int regions = 0;  ///< regions that asked for one when no layer, or the common one, was in place
   int quads = 0;    ///< boundary quads that got a layer
   double gain = 0;  ///< fall of the total angle cost, less prices
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
 #include <string>
 
 #include "blocks/coarsen.h"
@@ -49,9 +49,9 @@ void validate(const TetMesh& mesh, const PolycuboidMap& map) {
   if (std::count(seen.begin(), seen.end(), 0) > 0) throw InvalidInput("a boundary triangle belongs to no chart");
 }
 
-/// Area of a component's side that lies on one sheet.
-struct SideArea {
-  int component, axis, side, plane, sheet;
+/// Area of a component's boundary in one plane, seen along +axis: positive where the component is below.
+struct PlaneArea {
+  int component, axis, plane, sheet;
   int chart;  ///< the boundary chart there, or -1 for a cut
   double area;
 };
@@ -86,50 +86,47 @@ class Assembly {
     return cuts_.planes[axis][box.plane[axis][1]] - cuts_.planes[axis][box.plane[axis][0]];
   }
 
-  /// The box of every component: per side the plane that carries most of its net area.
+  /// The box of every component. Over the planes of an axis the net areas sum to 0; a block has its face's area at its high plane, the
+  /// opposite at its low plane, and nothing between: folds of tets and of charts cancel.
   void find_boxes() {
-    std::vector<SideArea> sides;
-    sides.reserve(2 * pieces_.fluxes.size() + pieces_.chart_areas.size());
+    std::vector<PlaneArea> areas;
+    areas.reserve(2 * pieces_.fluxes.size() + pieces_.chart_areas.size());
     for (const Flux& f : pieces_.fluxes) {
-      sides.push_back({f.low, f.axis, 1, f.plane, f.sheet, -1, f.area});
-      sides.push_back({f.high, f.axis, 0, f.plane, f.sheet, -1, f.area});
+      areas.push_back({f.low, f.axis, f.plane, f.sheet, -1, f.area});
+      areas.push_back({f.high, f.axis, f.plane, f.sheet, -1, -f.area});
     }
     for (const ChartArea& a : pieces_.chart_areas) {
       if (cuts_.collapsed[a.chart]) continue;
-      const Chart& chart = map_.charts[a.chart];
-      const int sign = cuts_.sign[a.chart];
-      sides.push_back({a.component, chart.axis, sign > 0 ? 1 : 0, cuts_.chart_plane[a.chart], cuts_.chart_sheet[a.chart], a.chart, sign * a.area});
+      areas.push_back({a.component, map_.charts[a.chart].axis, cuts_.chart_plane[a.chart], cuts_.chart_sheet[a.chart], a.chart, a.area});
     }
-    const auto key = [](const SideArea& s) { return std::array{s.component, s.axis, s.side, s.plane, s.sheet, s.chart}; };
-    std::stable_sort(sides.begin(), sides.end(), [&](const SideArea& a, const SideArea& b) { return key(a) < key(b); });
+    const auto key = [](const PlaneArea& p) { return std::array{p.component, p.axis, p.plane, p.sheet, p.chart}; };
+    std::stable_sort(areas.begin(), areas.end(), [&](const PlaneArea& a, const PlaneArea& b) { return key(a) < key(b); });
     boxes_.assign(pieces_.volume.size(), {});
-    for (std::size_t i = 0; i < sides.size();) {
-      const SideArea& s = sides[i];
-      // All entries of one side of one component.
-      double best = 0;
-      for (; i < sides.size() && sides[i].component == s.component && sides[i].axis == s.axis && sides[i].side == s.side;) {
-        double total = 0, best_part = 0;
-        int sheet = -1, chart = -1;
-        const int plane = sides[i].plane;
-        while (i < sides.size() && sides[i].component == s.component && sides[i].axis == s.axis && sides[i].side == s.side &&
-               sides[i].plane == plane) {
-          double part = 0;
-          const std::size_t begin = i;
-          for (; i < sides.size() && key(sides[i]) == key(sides[begin]); ++i) part += sides[i].area;
-          total += part;
-          if (part > best_part) {
-            best_part = part;
-            sheet = sides[begin].sheet;
-            chart = sides[begin].chart;
-          }
+    std::vector<std::array<std::array<double, 2>, 3>> best(boxes_.size(), {{{0, 0}, {0, 0}, {0, 0}}});
+    for (std::size_t i = 0; i < areas.size();) {
+      const PlaneArea& p = areas[i];
+      double total = 0;
+      std::array<double, 2> best_part{0, 0};
+      std::array<std::size_t, 2> part_at{i, i};
+      while (i < areas.size() && areas[i].component == p.component && areas[i].axis == p.axis && areas[i].plane == p.plane) {
+        double part = 0;
+        const std::size_t begin = i;
+        for (; i < areas.size() && key(areas[i]) == key(areas[begin]); ++i) part += areas[i].area;
+        total += part;
+        for (int s : {0, 1}) {
+          const double towards = s == 1 ? part : -part;
+          if (towards <= best_part[s]) continue;
+          best_part[s] = towards;
+          part_at[s] = begin;
         }
-        if (total <= best) continue;
-        best = total;
-        Box& box = boxes_[s.component];
-        box.plane[s.axis][s.side] = plane;
-        box.sheet[s.axis][s.side] = sheet;
-        box.chart[s.axis][s.side] = chart;
       }
+      const int side = total > 0 ? 1 : 0;
+      if (std::abs(total) <= best[p.component][p.axis][side]) continue;
+      best[p.component][p.axis][side] = std::abs(total);
+      Box& box = boxes_[p.component];
+      box.plane[p.axis][side] = p.plane;
+      box.sheet[p.axis][side] = areas[part_at[side]].sheet;
+      box.chart[p.axis][side] = areas[part_at[side]].chart;
     }
   }
 
@@ -198,7 +195,7 @@ class Assembly {
           complex_.blocks[low].neighbours[2 * f.axis + 1] = high;
         } else {
           for (auto [chart, area] : charts_in[f.low]) {
-            if (cuts_.collapsed[chart] || map_.charts[chart].axis != f.axis || cuts_.chart_plane[chart] != f.plane || cuts_.sign[chart] > 0) continue;
+            if (cuts_.collapsed[chart] || map_.charts[chart].axis != f.axis || cuts_.chart_plane[chart] != f.plane) continue;
             const double weight = std::min(-area, f.area);
             if (weight <= best[high][f.axis]) continue;
             best[high][f.axis] = weight;
@@ -212,6 +209,38 @@ class Assembly {
       for (int d = 0; d < 3; ++d) {
         if (block.neighbours[2 * d] >= 0) block.side_chart[2 * d] = -1;
         if (block.neighbours[2 * d + 1] < 0) block.side_chart[2 * d + 1] = boxes_[component_of_[b]].chart[d][1];
+      }
+    }
+    close_slits();
+  }
+
+  /// Where a chart overshoots its border and folds back, the two layers cancel, but the blocks on both sides have them as their boundary:
+  /// one of them faces the wrong way. Such sides adjoin.
+  void close_slits() {
+    using Face = std::array<int, 7>;  // axis, plane, lateral planes, chart
+    const auto face_of = [&](std::size_t b, int side) {
+      const int d = side / 2, u = (d + 1) % 3, v = (d + 2) % 3;
+      const auto& p = planes_[b];
+      return Face{d, p[d][side % 2], p[u][0], p[u][1], p[v][0], p[v][1], complex_.blocks[b].side_chart[side]};
+    };
+    std::map<Face, std::array<std::vector<int>, 2>> open;
+    bool wrong = false;
+    for (std::size_t b = 0; b < complex_.blocks.size(); ++b) {
+      for (int side = 0; side < 6; ++side) {
+        const Block& block = complex_.blocks[b];
+        if (block.neighbours[side] >= 0 || block.side_chart[side] < 0) continue;
+        wrong = wrong || (cuts_.sign[block.side_chart[side]] > 0) != (side % 2 == 1);
+        open[face_of(b, side)][side % 2].push_back(static_cast<int>(b));
+      }
+    }
+    if (!wrong) return;
+    for (const auto& [face, blocks] : open) {
+      const int d = face[0];
+      for (std::size_t i = 0; i < std::min(blocks[0].size(), blocks[1].size()); ++i) {
+        Block &high = complex_.blocks[blocks[0][i]], &low = complex_.blocks[blocks[1][i]];
+        high.neighbours[2 * d] = blocks[1][i];
+        low.neighbours[2 * d + 1] = blocks[0][i];
+        high.side_chart[2 * d] = low.side_chart[2 * d + 1] = -1;
       }
     }
   }
@@ -350,6 +379,7 @@ BlockComplex extract(const TetMesh& tets, const PolycuboidMap& map, const TetTop
   BlockComplex complex = Assembly(tets, map, topology, cuts, pieces).run();
   const BlockReport report = check(complex, map);
   if (!report.lost_charts.empty()) fail("charts that bound no volume in the image of the map", report.lost_charts, tets, map);
+  if (report.bare_sides > 0) fail("blocks have sides on no chart", {}, tets, map);
   if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
   if (report.nonmanifold_edges > 0) fail("the boundary of the blocks is not a manifold", {}, tets, map);
   if (report.euler != euler_characteristic(tets.triangles)) fail("the blocks do not have the topology of the solid", {}, tets, map);

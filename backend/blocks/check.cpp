@@ -30,7 +30,11 @@ BlockReport check(const BlockComplex& complex, const PolycuboidMap& map) {
         continue;
       }
       ++report.boundary_quads;
-      if (block.side_chart[side] >= 0) present[block.side_chart[side]] = 1;
+      if (block.side_chart[side] >= 0) {
+        present[block.side_chart[side]] = 1;
+      } else {
+        ++report.bare_sides;
+      }
       for (int k = 0; k < 4; ++k) {
         const int u = block.corners[kHexFaces[side][k]], v = block.corners[kHexFaces[side][(k + 1) % 4]];
         ++edges[{std::min(u, v), std::max(u, v)}];

@@ -102,6 +102,9 @@ Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& p
       if (n < 0) block.side_chart[side] = fine[b].side_chart[side];
     }
   }
+  for (const auto& sides : known) {
+    if (std::count(sides.begin(), sides.end(), 0) > 0) throw StageFailed("blocks", "a block has a side on no chart's sheet");
+  }
   return coarse;
 }
 

@@ -69,6 +69,14 @@ class MeshArrays(unittest.TestCase):
         self.assertEqual(result.hexes.shape, (len(self.result.hexes), 8))
         self.assertEqual(result.quads.shape[1], 4)
 
+    def test_target_count(self):
+        result = polycube.mesh(Part.makeBox(40, 20, 10), hexes=1000)
+        self.assertAlmostEqual(len(result.hexes), 1000, delta=200)
+
+    def test_time_limit(self):
+        with self.assertRaises(polycube.Cancelled):
+            polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, time_limit=0.2)
+
     def test_progress_and_log_arrive(self):
         stages, lines = [], []
         polycube.mesh(Part.makeBox(10, 10, 10), size=5, progress=lambda stage, fraction: stages.append((stage, fraction)), log=lines.append)
@@ -151,7 +159,7 @@ class BadInput(DocumentTest):
 
     def test_size(self):
         box = self.box()
-        for size in (0, -1, math.nan, math.inf, 1e4):
+        for size in (0, -1, math.nan, math.inf, 1e4, "wide"):
             with self.subTest(size=size):
                 self.assertIn("size", self.check(box, size=size))
 
@@ -160,6 +168,14 @@ class BadInput(DocumentTest):
 
     def test_order(self):
         self.assertIn("order", self.check(self.box(), order=3))
+
+    def test_two_ways_of_giving_the_size(self):
+        message = self.check(self.box(), size=5, hexes=100)
+        self.assertIn("hexes", message)
+        self.assertNotIn("--", message)
+
+    def test_labels(self):
+        self.assertIn("Face99", self.check(self.box(), labels={"Face99": "+X"}))
 
     def test_not_a_shape(self):
         with self.assertRaises(polycube.InvalidInput):

@@ -1,6 +1,7 @@
 """What scripts call. No window needed."""
 
 from contextlib import contextmanager
+from numbers import Real
 
 from .errors import InvalidInput
 
@@ -24,8 +25,8 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
 
     given = _given(size=size, order=order, **more)
     option_table.check_names(given)
-    if size is not None and not float(size) > 0:
-        raise InvalidInput("size: {} is not a positive length in mm".format(size))
+    if size is not None and not (isinstance(size, Real) and size > 0):
+        raise InvalidInput("size {} is not a positive length in mm".format(size))
     shape = shapes.shape_of(shape_or_object)
     shapes.check_solid(shape)
     with job.Job(shape, given) as work:

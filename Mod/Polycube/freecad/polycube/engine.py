@@ -32,7 +32,7 @@ def environment(folder):
     """Environment for the child process: the compiled module's folder on PYTHONPATH, temporary files in the job's `folder`, which goes with it."""
     env = dict(os.environ, TMPDIR=folder, TEMP=folder, TMP=folder)
     env.pop("PYTHONHOME", None)
-    module = os.path.dirname(os.path.abspath(load().__file__))
+    module = os.path.dirname(os.path.realpath(load().__file__))
     env["PYTHONPATH"] = os.pathsep.join([module] + [path for path in [env.get("PYTHONPATH")] if path])
     return env
 

@@ -6,6 +6,7 @@ line: {"progress": [stage, fraction]} or {"log": line}. Exit status: 0 mesh writ
 
 import json
 import os
+import re
 import sys
 
 import numpy
@@ -51,7 +52,9 @@ def run(folder):
             **json.loads(read(os.path.join(folder, "options.json"))),
         ).to_dict()
     except polycube.InvalidInput as error:
-        write_json(os.path.join(folder, "error.json"), {"kind": "InvalidInput", "message": str(error)})
+        # The engine writes options as on the command line, --time-limit; here they are time_limit.
+        message = re.sub(r"--([a-z][a-z-]*)", lambda option: option.group(1).replace("-", "_"), str(error))
+        write_json(os.path.join(folder, "error.json"), {"kind": "InvalidInput", "message": message})
         return 1
     except polycube.StageFailed as error:
         found = {"kind": "StageFailed", "message": str(error), "stage": error.stage, "entities": list(error.entities)}

@@ -68,7 +68,7 @@ class Finder {
     }
   }
 
-  FeatureEdge add(int edge, const std::vector<int>& chain, std::vector<Chart>& charts) {
+  FeatureEdge add(int edge, const std::vector<int>& chain, std::vector<FeatureChart>& charts) {
     FeatureEdge result{edge, EdgeCapture::kBoundary, {}};
     const std::vector<Run> runs = find_runs(edge, chain);
     if (runs.empty()) return result;
@@ -87,7 +87,7 @@ class Finder {
       c.nodes = run.nodes;
       std::sort(c.nodes.begin(), c.nodes.end());
       c.nodes.erase(std::unique(c.nodes.begin(), c.nodes.end()), c.nodes.end());
-      charts.push_back(std::move(c));
+      charts.push_back({edge, std::move(c)});
     }
     result.capture = EdgeCapture::kFeature;
     return result;

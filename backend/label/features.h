@@ -17,8 +17,13 @@ struct FeatureEdge {
   std::string reason;  ///< of kLost
 };
 
+struct FeatureChart {
+  int edge = 0;   ///< CAD edge
+  Chart chart;    ///< sign 0; axis and nodes filled
+};
+
 struct Features {
-  std::vector<Chart> charts;        ///< sign 0; axis and nodes filled
+  std::vector<FeatureChart> charts;
   std::vector<FeatureEdge> edges;   ///< one per CAD edge that is neither seam nor degenerate
 };
 

@@ -187,18 +187,72 @@ Halves halves(const Setup& s) {
   return {std::move(half), std::move(slope), std::move(middle)};
 }
 
+// A barrel may have to change its label along the generator where another face ends on it (the foot of a leg, an arm that touches tangentially) rather
+// than at 45 degrees: it is cut there too.
+struct Sectors {
+  std::vector<int> sector;                       // per triangle
+  std::vector<std::vector<double>> cuts;         // per CAD face: angles, ascending
+  std::vector<std::array<Vec3, 2>> across;       // per CAD face: directions of angle 0 and 90 degrees, in model space
+};
+
+double angle_on(const Setup& s, const Sectors& sectors, int face, const Vec3& p) {
+  const Vec3 arm = p - s.model.face(face).centre;
+  return std::atan2(arm.dot(sectors.across[face][1]), arm.dot(sectors.across[face][0]));
+}
+
+Sectors find_sectors(const Setup& s) {
+  constexpr double kNear = std::numbers::pi / 36;
+  Sectors result;
+  result.cuts.resize(s.model.face_count() + 1);
+  result.across.resize(s.model.face_count() + 1);
+  for (int f = 1; f <= s.model.face_count(); ++f) {
+    const CadFace& face = s.model.face(f);
+    if (s.whole[f] || (face.kind != SurfaceKind::kCylinder && face.kind != SurfaceKind::kCone)) continue;
+    result.across[f][0] = face.axis.unitOrthogonal();
+    result.across[f][1] = face.axis.cross(result.across[f][0]);
+    std::set<int> vertices;
+    for (int e : face.edges) {
+      if (!s.model.edge(e).seam && !s.model.edge(e).closed) vertices.insert(s.model.edge(e).vertices.begin(), s.model.edge(e).vertices.end());
+    }
+    std::vector<double>& cuts = result.cuts[f];
+    for (int v : vertices) {
+      const double angle = angle_on(s, result, f, s.model.vertex(v));
+      // The normal there; within 5 degrees of 45 the cut by label serves.
+      Vec3 n = s.frame * (std::cos(angle) * result.across[f][0] + std::sin(angle) * result.across[f][1]);
+      n = n.cwiseAbs();
+      std::sort(n.data(), n.data() + 3);
+      if (std::atan2(n[2], n[1]) < std::numbers::pi / 4 + kNear) continue;
+      if (std::none_of(cuts.begin(), cuts.end(), [&](double c) { return std::abs(std::remainder(c - angle, 2 * std::numbers::pi)) < kNear; })) cuts.push_back(angle);
+    }
+    std::sort(cuts.begin(), cuts.end());
+    if (cuts.size() < 2) cuts.clear();  // one generator does not divide a full turn, and a part of one has its end there
+  }
+  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
+    const int f = s.mesh.triangle_face[t];
+    const auto& cuts = result.cuts[f];
+    int sector = 0;
+    if (!cuts.empty()) {
+      Vec3 centre = Vec3::Zero();
+      for (int n : s.mesh.triangles[t]) centre += s.mesh.points[n] / 3;
+      sector = static_cast<int>(std::lower_bound(cuts.begin(), cuts.end(), angle_on(s, result, f, centre)) - cuts.begin()) % static_cast<int>(cuts.size());
+    }
+    result.sector.push_back(sector);
+  }
+  return result;
+}
+
 // Connected triangles of one CAD face, one label and one half. Pieces much smaller than their face's largest join the neighbour they share most
 // border with.
 struct Split {
   std::vector<int> region;  // per triangle
-  std::vector<int> kind;    // per region: half + 8 * label
+  std::vector<int> kind;    // per region: half + 8 * label + 64 * sector
 };
 
-Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves) {
+Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves, const Sectors& sectors) {
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
   std::vector<int> kind = halves.half;
-  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t];
+  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t] + 64 * sectors.sector[t];
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {
     region.assign(n, -1);
@@ -249,7 +303,7 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
 
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
 std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, const std::vector<int>& region_label, const Split& split,
-                                    const Halves& halves) {
+                                    const Halves& halves, const Sectors& sectors) {
   std::vector<BorderFunction> result;
   std::set<std::pair<int, int>> done;
   for (const Arc& arc : graph.arcs) {
@@ -261,8 +315,18 @@ std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, co
       result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }});
       continue;
     }
-    const int l = s.whole[face] ? p % 8 : p / 8, m = s.whole[face] ? q % 8 : q / 8;
-    if (l == m || s.flat[face]) continue;
+    const int l = s.whole[face] ? p % 8 : p / 8 % 8, m = s.whole[face] ? q % 8 : q / 8 % 8;
+    if (s.flat[face]) continue;
+    if (l == m) {
+      if (p / 64 == q / 64) continue;
+      // Sector i ends at cut i.
+      const int count = static_cast<int>(sectors.cuts[face].size());
+      const bool before = (p / 64 + 1) % count == q / 64;
+      if (!before && (q / 64 + 1) % count != p / 64) continue;
+      const double cut = sectors.cuts[face][before ? p / 64 : q / 64], sign = before ? -1 : 1;
+      result.push_back({a, b, [&s, &sectors, face, cut, sign](int n) { return sign * std::sin(angle_on(s, sectors, face, s.mesh.points[n]) - cut); }});
+      continue;
+    }
     Vec3 direction = Vec3::Zero();
     direction[label_axis(l)] += label_sign(l);
     direction[label_axis(m)] -= label_sign(m);
@@ -284,7 +348,8 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   const std::vector<int> first = cut_triangles(s, monitor);
   monitor.progress("label", 0.3);
   const Halves half = halves(s);
-  const Split split = split_regions(s, first, half);
+  const Sectors sectors = find_sectors(s);
+  const Split split = split_regions(s, first, half, sectors);
   RegionGraph graph = build_region_graph(mesh, split.region);
   std::vector<int> given(model.face_count() + 1, -1);
   for (const auto& [face, label] : options.face_labels) given[face] = label;
@@ -307,12 +372,12 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   double edge = 0;
   for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
   edge /= static_cast<double>(mesh.triangles.size());
-  region_label = repair(graph, points, std::move(region_label), 0.75 * edge, monitor);
+  region_label = repair(graph, points, std::move(region_label), 0.75 * edge, options.strictness, monitor);
 
   Labelling result;
   result.frame = s.frame;
   const Violations left = find_violations(graph, points, region_label, 0.75 * edge);
-  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half), monitor)) result.label.push_back(region_label[r]);
+  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half, sectors), monitor)) result.label.push_back(region_label[r]);
   split_tied_edges(mesh, result.label, monitor);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +

@@ -8,8 +8,6 @@
 namespace polycube {
 namespace {
 
-// A violation is worth more than any change of energy that a sensible relabelling brings.
-constexpr double kViolationWeight = 1000;
 constexpr int kMaxMoves = 400;
 
 double region_energy(const RegionGraph& g, const std::vector<int>& label) {
@@ -81,11 +79,12 @@ std::vector<Move> moves_near(const RegionGraph& g, const Violations& violations,
 
 }  // namespace
 
-std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, const Monitor& monitor) {
+std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, double weight,
+                        const Monitor& monitor) {
   const auto near = adjacency(graph);
   const auto cost = [&](const std::vector<int>& l, Violations* v) {
     Violations found = find_violations(graph, points, l, noise);
-    const double c = kViolationWeight * found.score + region_energy(graph, l);
+    const double c = weight * found.score + region_energy(graph, l);
     if (v) *v = std::move(found);
     return c;
   };

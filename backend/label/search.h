@@ -9,7 +9,8 @@ namespace polycube {
 /// Lowers the violations, then the energy (Region::data and Arc::weight), by relabelling single regions, pairs of adjacent regions, whole
 /// charts and all regions round a bad corner.
 /// Never returns a labelling with a higher score than it was given. Deterministic; ends when no move helps.
-std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise,
+/// `weight`: what one point of Violations::score is worth in energy.
+std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise, double weight,
                         const Monitor& monitor);
 
 }  // namespace polycube

@@ -6,7 +6,7 @@
 
 #include "core/charts.h"
 #include "core/error.h"
-#include "deform/deform.h"
+#include "pipeline/realise.h"
 #include "tet/tet.h"
 
 namespace polycube {
@@ -29,7 +29,7 @@ std::vector<Line> lines(const LabelledPart& part) {
       if (n > t && part.labelling.label[n] != part.labelling.label[t]) result.push_back({{part.tets.triangles[t][k], part.tets.triangles[t][(k + 1) % 3]}, 0});
     }
   }
-  for (const Chart& c : part.features.charts) {
+  for (const auto& [edge, c] : part.features.charts) {
     for (const Segment& s : part.tets.segments) {
       const auto on = [&](int n) { return std::binary_search(c.nodes.begin(), c.nodes.end(), n); };
       if (on(s[0]) && on(s[1])) result.push_back({s, 1 + c.axis});
@@ -62,9 +62,9 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& options, const
   book("label");
   DeformOptions deform_options;
   deform_options.merge = 0.02 * size;
-  DeformReport report;
-  part.map = deform(part.tets, part.labelling.frame, part.labelling.label, part.features.charts, deform_options, monitor, &report);
-  part.flipped = report.flipped;
+  RealisedMap realised = realise(model, part.tets, part.labelling, part.features, deform_options, monitor);
+  part.map = std::move(realised.map);
+  part.flipped = realised.report.flipped;
   book("deform");
   return part;
 }

@@ -10,13 +10,13 @@
 
 #include "blocks/blocks.h"
 #include "core/error.h"
-#include "deform/deform.h"
 #include "fit/fit.h"
 #include "hex/hex.h"
 #include "label/features.h"
 #include "label/label.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
+#include "pipeline/realise.h"
 #include "quantize/quantize.h"
 #include "tet/tet.h"
 
@@ -31,18 +31,20 @@ constexpr double kCoarsest = 1e-6;
 /// One way through the stages after tet; the pipeline tries them in order.
 struct Candidate {
   std::string name;
-  double compactness = 1;     // factor on the option
+  double strictness = 100;    // of LabelOptions
   double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path
   bool features = true;       // feature charts at all
 };
 
 std::vector<Candidate> candidates(const MeshOptions& options) {
   const double smooth = options.feature_angle * std::numbers::pi / 180;
-  return {{"all CAD edges", 1, smooth, true},
-          {"sharp CAD edges", 1, std::max(smooth, std::numbers::pi / 18), true},
-          {"loose labels", 0.3, std::max(smooth, std::numbers::pi / 18), true},
-          {"stiff labels", 3, std::max(smooth, std::numbers::pi / 18), true},
-          {"no feature charts", 1, std::max(smooth, std::numbers::pi / 18), false}};
+  const double sharp = std::max(smooth, std::numbers::pi / 18);
+  return {{"all CAD edges", 100, smooth, true},
+          {"all CAD edges, strict labels", 1000, smooth, true},
+          {"sharp CAD edges", 100, sharp, true},
+          {"sharp CAD edges, strict labels", 1000, sharp, true},
+          {"no feature charts", 100, sharp, false},
+          {"no feature charts, strict labels", 1000, sharp, false}};
 }
 
 class Run {
@@ -119,7 +121,8 @@ class Run {
     result.report = report_;
     LabelOptions label_options;
     label_options.fidelity = options_.fidelity;
-    label_options.compactness = options_.compactness * c.compactness;
+    label_options.compactness = options_.compactness;
+    label_options.strictness = c.strictness;
     label_options.face_labels = options_.labels;
     const Labelling labelling = stage("label", [&] { return label(model_, tets, label_options, monitor_); });
     Features features = stage("label", [&] { return find_features(model_, tets, labelling, c.min_bend, monitor_); });
@@ -131,10 +134,9 @@ class Run {
 
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size_;
-    DeformReport deform_report;
-    const PolycuboidMap map =
-        stage("deform", [&] { return deform(tets, labelling.frame, labelling.label, features.charts, deform_options, monitor_, &deform_report); });
-    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(deform_report.flipped) + " flipped of " +
+    const RealisedMap realised = stage("deform", [&] { return realise(model_, tets, labelling, features, deform_options, monitor_); });
+    const PolycuboidMap& map = realised.map;
+    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
                  std::to_string(tets.tets.size()) + " tets");
     const BlockComplex blocks = stage("blocks", [&] { return extract_blocks(tets, map, monitor_); });
     QuantizeOptions quantize_options;

@@ -211,7 +211,60 @@ class Assembly {
         if (block.neighbours[2 * d + 1] < 0) block.side_chart[2 * d + 1] = boxes_[component_of_[b]].chart[d][1];
       }
     }
+    find_behind_folds(charts_in);
     close_slits();
+  }
+
+  /// Sides whose chart or neighbour hides behind components of no volume: the nearest one through cuts in the side's plane.
+  void find_behind_folds(const std::vector<std::vector<std::pair<int, double>>>& charts_in) {
+    std::vector<std::vector<int>> cuts_of(boxes_.size());
+    for (int i = 0; i < static_cast<int>(pieces_.fluxes.size()); ++i) {
+      cuts_of[pieces_.fluxes[i].low].push_back(i);
+      cuts_of[pieces_.fluxes[i].high].push_back(i);
+    }
+    for (int b = 0; b < static_cast<int>(complex_.blocks.size()); ++b) {
+      for (int side = 0; side < 6; ++side) {
+        Block& block = complex_.blocks[b];
+        if (block.neighbours[side] >= 0 || block.side_chart[side] >= 0) continue;
+        const int axis = side / 2, plane = planes_[b][axis][side % 2];
+        std::vector<int> reached{component_of_[b]};
+        double best = 0;
+        for (std::size_t i = 0; i < reached.size(); ++i) {
+          for (int c : cuts_of[reached[i]]) {
+            const Flux& f = pieces_.fluxes[c];
+            const int to = f.low == reached[i] ? f.high : f.low;
+            if (f.axis != axis || f.plane != plane || f.area == 0 || std::find(reached.begin(), reached.end(), to) != reached.end()) continue;
+            const int other = block_of_[to];
+            if (other < 0) {
+              reached.push_back(to);
+            } else if (fits(b, other, side) && std::abs(f.area) > best) {
+              best = std::abs(f.area);
+              block.neighbours[side] = other;
+              block.side_chart[side] = -1;
+            }
+          }
+          if (i == 0) continue;
+          for (auto [chart, area] : charts_in[reached[i]]) {
+            const double towards = side % 2 == 1 ? area : -area;
+            if (cuts_.collapsed[chart] || map_.charts[chart].axis != axis || cuts_.chart_plane[chart] != plane || towards <= best) continue;
+            best = towards;
+            block.neighbours[side] = -1;
+            block.side_chart[side] = chart;
+          }
+        }
+        if (const int n = block.neighbours[side]; n >= 0) {
+          complex_.blocks[n].neighbours[side ^ 1] = b;
+          complex_.blocks[n].side_chart[side ^ 1] = -1;
+        }
+      }
+    }
+  }
+
+  /// Whether a block has the same rectangle on the other side of a block's side, and nothing there yet.
+  bool fits(int block, int other, int side) const {
+    const int axis = side / 2;
+    if (complex_.blocks[other].neighbours[side ^ 1] >= 0 || planes_[other][axis][1 - side % 2] != planes_[block][axis][side % 2]) return false;
+    return planes_[other][(axis + 1) % 3] == planes_[block][(axis + 1) % 3] && planes_[other][(axis + 2) % 3] == planes_[block][(axis + 2) % 3];
   }
 
   /// Where a chart overshoots its border and folds back, the two layers cancel, but the blocks on both sides have them as their boundary:

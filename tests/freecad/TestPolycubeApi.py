@@ -64,6 +64,10 @@ class MeshArrays(unittest.TestCase):
         self.assertEqual({len(groups["Vertex{}".format(i)]["nodes"]) for i in range(1, 9)}, {1})
         self.assertEqual(sum(len(groups["Face{}".format(i)]["quads"]) for i in range(1, 7)), len(self.result.quads))
 
+    def test_size_as_a_quantity(self):
+        result = polycube.mesh(Part.makeBox(40, 20, 10), size=FreeCAD.Units.Quantity("0.5 cm"))
+        self.assertEqual(len(result.hexes), len(self.result.hexes))
+
     def test_first_order(self):
         result = polycube.mesh(Part.makeBox(40, 20, 10), size=5, order=1)
         self.assertEqual(result.hexes.shape, (len(self.result.hexes), 8))

@@ -1,5 +1,6 @@
 """FreeCAD's own examples and simple loads, solved by CalculiX on our meshes."""
 
+import importlib
 import json
 import os
 import re
@@ -135,6 +136,32 @@ class Cantilever(SolverTest):
         self.assertGreater(lowest, -88.6)
         self.assertLess(lowest, -86.8)
         self.assertLess((total_reaction(path) - Vector(0, 0, 9e6)).Length, 0.005 * 9e6)
+
+
+class FreeCadExamples(SolverTest):
+    """Largest displacement against what FreeCAD's own meshes give (mm)."""
+
+    def check(self, module, expected, tolerance, **options):
+        self.document = importlib.import_module("femexamples." + module).setup()
+        analysis = self.document.Analysis
+        theirs = next(obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemMeshObject"))
+        part = theirs.Part
+        self.document.removeObject(theirs.Name)
+        polycube.create_fem_mesh(part, analysis=analysis, **options)
+        self.document.recompute()
+        solver = next(obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemSolverObject"))
+        _, result = solve(analysis, solver, self.folder)
+        self.assertAlmostEqual(max(result.DisplacementLengths) / expected, 1, delta=tolerance)
+
+    def test_prescribed_displacement(self):
+        self.check("ccx_cantilever_prescribeddisplacement", 251.09, 0.001, size=500)
+
+    def test_self_weight(self):
+        self.check("constraint_selfweight_cantilever", 577.7, 0.005, hexes=400)
+
+    def test_box_under_pressure_and_force(self):
+        """Its load ends at clamped corners: a finer mesh is softer, 0.0937 is that of FreeCAD's tetrahedra."""
+        self.check("boxanalysis_static", 0.0937, 0.02, size=2)
 
 
 class CylinderSide(SolverTest):

@@ -25,8 +25,8 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
 
     given = _given(size=size, order=order, **more)
     option_table.check_names(given)
-    if size is not None and not (isinstance(size, Real) and size > 0):
-        raise InvalidInput("size {} is not a positive length in mm".format(size))
+    if "size" in given and not (isinstance(given["size"], Real) and given["size"] > 0):
+        raise InvalidInput("size {} is not a positive length in mm".format(given["size"]))
     shape = shapes.shape_of(shape_or_object)
     shapes.check_solid(shape)
     with job.Job(shape, given) as work:
@@ -85,7 +85,8 @@ def transaction(document, name):
 
 
 def _given(**values):
-    return {name: value for name, value in values.items() if value is not None}
+    """The options that were given; quantities of FreeCAD as plain numbers in mm."""
+    return {name: getattr(value, "Value", value) for name, value in values.items() if value is not None}
 
 
 def _check_object(part):

@@ -11,7 +11,6 @@ import unittest
 
 import FreeCAD
 import ObjectsFem
-import Part
 from FreeCAD import Vector
 from femtools import ccxtools
 

@@ -69,7 +69,8 @@ def add_constraint_groups(mesh, result, part, analysis):
     """Adds the groups that FreeCAD's own search by geometry would not find by itself; returns warnings, one line each.
 
     A group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So it is written only where the
-    search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Materials get `<Material>_Volumes` where there are several.
+    search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Where there are several materials,
+    each gets `<Material>_Volumes`.
     """
     warnings, node_groups, materials = [], [], []
     lost = {name for kind in result.report["cad"].values() for name in kind["lost"]}

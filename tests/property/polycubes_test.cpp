@@ -156,7 +156,7 @@ TEST(Polycubes, OverlappingSpirals) {
 
 TEST(Polycubes, OptimumOfSmallOnesIsThatOfBruteForce) {
   int compared = 0;
-  for (unsigned seed = 0; seed < 300; ++seed) {
+  for (unsigned seed = 0; seed < 150; ++seed) {
     std::mt19937 random(5000 + seed);
     Example e = testing::tetrahedralise(testing::random_cells(random, 2, 3), 1);
     testing::set_values(e, random_values(e, random, 0.4));
@@ -169,7 +169,7 @@ TEST(Polycubes, OptimumOfSmallOnesIsThatOfBruteForce) {
     EXPECT_NEAR(q.objective, brute_force(blocks, e.map, options, 6), 1e-9 * (1 + q.objective)) << "seed " << seed;
     ++compared;
   }
-  EXPECT_GT(compared, 100);
+  EXPECT_GT(compared, 50);
 }
 
 }  // namespace

@@ -1,37 +1,66 @@
 #include "pad/pad.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "pad/rings.h"
 #include "pad/surface.h"
 
 namespace polycube {
 
-PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report) {
+namespace {
+
+struct Choice {
+  PaddedMesh padded;
+  PadReport report;
+  double gain = 0;
+};
+
+// A choice that leaves this much more to be desired than the best leaves a cell flat that the best does not.
+constexpr double kHopeless = 500;
+
+}  // namespace
+
+std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
+                                    std::vector<PadReport>* reports) {
   const auto faults_before = check(mesh, association);
   if (!faults_before.empty()) throw StageFailed("pad", "the mesh handed to padding is not sound: " + faults_before[0]);
-  PaddedMesh padded;
-  PadReport counts;
-  double best = -1;
+  std::vector<Choice> choices;
   double done = 0.1;
-  for (const LayerPlan plan : {LayerPlan::kEach, LayerPlan::kTogether, LayerPlan::kTogetherThrough}) {
+  for (const LayerPlan plan : {LayerPlan::kEach, LayerPlan::kBands, LayerPlan::kTogether, LayerPlan::kTogetherThrough}) {
     monitor.progress("pad", done);
-    done += 0.25;
-    PaddedMesh candidate{mesh, association};
-    const LayerCount layers = insert_surface_layers(model, candidate, plan, monitor);
-    const RingCount rings = insert_rings(model, candidate, monitor);
-    if (layers.gain + rings.gain > best) {
-      best = layers.gain + rings.gain;
-      padded = std::move(candidate);
-      counts = {layers.quads, rings.sheets, 0};
-    }
-    if (plan == LayerPlan::kEach && layers.regions <= 1) break;  // the first plan tries every way for a single region
+    done += 0.2;
+    Choice choice;
+    choice.padded = {mesh, association};
+    const LayerCount layers = insert_surface_layers(model, choice.padded, plan, monitor);
+    const RingCount rings = insert_rings(model, choice.padded, monitor);
+    const auto faults = check(choice.padded.mesh, choice.padded.association);
+    if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);
+    choice.gain = layers.gain + rings.gain;
+    choice.report = {layers.quads, rings.sheets, static_cast<int>(choice.padded.mesh.hexes.size() - mesh.hexes.size())};
+    const bool known =
+        std::any_of(choices.begin(), choices.end(), [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
+    if (!known) choices.push_back(std::move(choice));
+    if (plan == LayerPlan::kEach && layers.regions == 0) break;  // nothing for the other plans to do
   }
-  counts.added_hexes = static_cast<int>(padded.mesh.hexes.size() - mesh.hexes.size());
-  const auto faults = check(padded.mesh, padded.association);
-  if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);
-  if (report) *report = counts;
+  std::stable_sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
+  const double enough = choices[0].gain - kHopeless;
+  std::erase_if(choices, [&](const Choice& c) { return c.gain < enough; });
+  std::vector<PaddedMesh> padded;
+  if (reports) reports->clear();
+  for (Choice& choice : choices) {
+    padded.push_back(std::move(choice.padded));
+    if (reports) reports->push_back(choice.report);
+  }
   monitor.progress("pad", 1);
   return padded;
+}
+
+PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report) {
+  std::vector<PadReport> reports;
+  std::vector<PaddedMesh> choices = pad_choices(model, mesh, association, monitor, &reports);
+  if (report) *report = reports[0];
+  return std::move(choices[0]);
 }
 
 }  // namespace polycube

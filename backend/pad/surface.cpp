@@ -18,7 +18,11 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kWidestEnd = 130 * kPi / 180;
 // From here on an edge is concave: a layer can go on into the solid.
 constexpr double kConcave = 215 * kPi / 180;
-// What a padded quad costs. A bore's four lines of three cells (60 degrees each) are not worth a layer; one line of one cell (180 degrees) is.
+// angle_cost from which an edge of a smooth region is at fault: cells of 148 degrees or more.
+constexpr double kBadEdge = 0.9;
+// Among layers that mend a region, the price of a quad.
+constexpr double kSmallPrice = 0.01;
+// What a padded quad must bring for a region to be looked at. A bore's four lines of three cells (60 degrees each) are not worth a layer; one line of one cell (180 degrees) is.
 constexpr double kQuadPrice = 0.15;
 
 struct Regions {
@@ -109,6 +113,60 @@ class Chooser {
     return best;
   }
 
+  // Chains of edges at fault inside smooth regions, by edge index.
+  std::vector<std::vector<int>> faults() const {
+    std::vector<std::vector<int>> node_edges(mesh_.points.size()), chains;
+    std::vector<char> open(edges_.size(), 0);
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+      if (angles_[e] <= kWidestEnd || angles_[e] >= kConcave || angle_cost(edges_[e].hexes, angles_[e]) < kBadEdge) continue;
+      open[e] = 1;
+      node_edges[edges_[e].a].push_back(e);
+      node_edges[edges_[e].b].push_back(e);
+    }
+    for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
+      if (!open[e]) continue;
+      open[e] = 0;
+      std::vector<int> chain{e};
+      for (std::size_t i = 0; i < chain.size(); ++i) {
+        for (int v : {edges_[chain[i]].a, edges_[chain[i]].b}) {
+          for (int next : node_edges[v]) {
+            if (open[next]) chain.push_back(next);
+            open[next] = 0;
+          }
+        }
+      }
+      chains.push_back(std::move(chain));
+    }
+    return chains;
+  }
+  // The least node of a chain: its name while sheets come and go.
+  int name_of(const std::vector<int>& chain) const {
+    int name = edges_[chain[0]].a;
+    for (int e : chain) name = std::min(name, edges_[e].a);
+    return name;
+  }
+
+  Choice choose_band(const std::vector<int>& chain) const {
+    Choice best;
+    std::vector<int> band;
+    for (int e : chain) band.insert(band.end(), edges_[e].quads.begin(), edges_[e].quads.end());
+    for (int width = 1; width <= 3; ++width) {
+      consider_band(band, best);
+      std::vector<int> wider = band;
+      for (int q : band) {
+        for (int v : association_.quads[q]) {
+          for (int other : whole_.node_quads[v]) {
+            if (regions_.of_quad[other] == regions_.of_quad[q]) wider.push_back(other);
+          }
+        }
+      }
+      std::sort(wider.begin(), wider.end());
+      wider.erase(std::unique(wider.begin(), wider.end()), wider.end());
+      band.swap(wider);
+    }
+    return best;
+  }
+
   Choice choose_together(bool through) const {
     Choice best;
     std::vector<char> wanted(regions_.own.size());
@@ -132,7 +190,7 @@ class Chooser {
       const TrialResult result = try_sheet(whole_, cut);
       if (result.obstacles.empty()) {
         const int quads = static_cast<int>(std::count(surface.begin(), surface.end(), 1));
-        const double gain = result.gain - kQuadPrice * quads;
+        const double gain = result.gain - kSmallPrice * quads;
         if (gain > best.gain) best = {std::move(cut), gain, quads};
         return;
       }
@@ -151,6 +209,43 @@ class Chooser {
       }
     }
     return chosen;
+  }
+
+  // Rates a pillow round the hexes under the band; where it cannot be opened it takes in more of the region.
+  void consider_band(std::vector<int> band, Choice& best) const {
+    constexpr int kRepairs = 5;
+    for (int attempt = 0; attempt < kRepairs; ++attempt) {
+      SheetCut cut{std::vector<char>(mesh_.hexes.size(), 0), std::vector<char>(association_.quads.size(), 0)};
+      for (int q : band) cut.surface[q] = 1;
+      for (int q : band) {
+        const Quad& quad = association_.quads[q];
+        const int side = whole_.topology.quad_side[q];
+        cut.inside[side / 6] = 1;
+        for (int k = 0; k < 4; ++k) {
+          const Fan fan = walk_round(mesh_, whole_.topology, side, quad[k], quad[(k + 1) % 4]);
+          if (!cut.surface[fan.quad]) continue;
+          for (int exit : fan.exits) cut.inside[exit / 6] = 1;
+        }
+      }
+      const TrialResult result = try_sheet(whole_, cut);
+      if (result.obstacles.empty()) {
+        const int quads = static_cast<int>(std::count(cut.surface.begin(), cut.surface.end(), 1));
+        const double gain = result.gain - kSmallPrice * quads;
+        if (gain > best.gain) best = {std::move(cut), gain, quads};
+        return;
+      }
+      const std::size_t before = band.size();
+      const int region = regions_.of_quad[band[0]];
+      for (int v : result.obstacles) {
+        for (int q : whole_.node_quads[v]) {
+          if (regions_.of_quad[q] == region && !cut.surface[q]) {
+            band.push_back(q);
+            cut.surface[q] = 1;
+          }
+        }
+      }
+      if (band.size() == before) return;
+    }
   }
 
   bool take_in(const std::vector<int>& nodes, std::vector<char>& chosen) const {
@@ -256,7 +351,18 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
     count.gain += best.gain;
     return true;
   };
-  if (plan != LayerPlan::kEach) {
+  std::set<int> tried_chains;
+  for (bool again = plan == LayerPlan::kBands; again;) {
+    again = false;
+    const TrialMesh whole(model, padded);
+    const Chooser chooser(whole);
+    for (const auto& chain : chooser.faults()) {
+      if (again || !tried_chains.insert(chooser.name_of(chain)).second) continue;
+      monitor.check();
+      again = insert(chooser.choose_band(chain));
+    }
+  }
+  if (plan == LayerPlan::kTogether || plan == LayerPlan::kTogetherThrough) {
     const TrialMesh whole(model, padded);
     insert(Chooser(whole).choose_together(plan == LayerPlan::kTogetherThrough));
   }

@@ -9,6 +9,7 @@ namespace polycube {
 enum class LayerPlan {
   kEach,             ///< one after the other
   kTogether,         ///< one layer under all of them and what lies beyond their concave edges
+  kBands,            ///< pillows round the edges at fault, a few quads wide, that end inside the region; then as kEach
   kTogetherThrough,  ///< one layer under all of them, going on straight through the solid from their concave edges
 };
 

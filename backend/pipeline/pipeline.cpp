@@ -157,13 +157,26 @@ class Run {
         stage("pad", [&] { return associate(model_, tets, map.charts, boundary, associate_options, monitor_); });
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                  std::to_string(association.lost_vertices.size()) + " vertices without mesh");
-    PadReport pad_report;
-    PaddedMesh padded = stage("pad", [&] { return pad(model_, complex.mesh, association, monitor_, &pad_report); });
-    monitor_.log("pad: " + std::to_string(pad_report.added_hexes) + " hexes added, " + std::to_string(pad_report.rings) + " rings");
-
+    std::vector<PadReport> pad_reports;
+    std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, complex.mesh, association, monitor_, &pad_reports); });
     FitOptions fit_options;
     if (options_.threads > 0) fit_options.threads = options_.threads;
-    const FitReport fitted = stage("fit", [&] { return fit(model_, padded.mesh, padded.association, fit_options, monitor_); });
+    // The first choice usually is the best; the others are fitted only where it falls short.
+    FitReport fitted;
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const FitReport report = stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
+      const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
+      if (i == 0 || rank_of(report) > rank_of(fitted)) {
+        fitted = report;
+        chosen = i;
+      }
+      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= fit_options.target_scaled_jacobian) break;
+    }
+    const PadReport& pad_report = pad_reports[chosen];
+    PaddedMesh& padded = choices[chosen];
+    monitor_.log("pad: " + std::to_string(pad_report.added_hexes) + " hexes added, " + std::to_string(pad_report.rings) + " rings, choice " +
+                 std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
     monitor_.log("fit: min SJ " + std::to_string(fitted.min_scaled_jacobian) + ", mean " + std::to_string(fitted.mean_scaled_jacobian) + ", " +
                  std::to_string(fitted.inverted) + " inverted");
     if (fitted.inverted > 0) {

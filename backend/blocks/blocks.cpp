@@ -138,14 +138,16 @@ class Assembly {
       const Box& box = boxes_[k];
       total += pieces_.volume[k];
       double box_volume = 1;
-      bool solid = true;
+      bool solid = true, upright = true;
       for (int d = 0; d < 3 && solid; ++d) {
-        solid = box.plane[d][0] >= 0 && box.plane[d][1] > box.plane[d][0];
-        if (solid) box_volume *= extent(box, d);
+        solid = box.plane[d][0] >= 0 && box.plane[d][1] >= 0 && box.plane[d][1] != box.plane[d][0];
+        upright = upright && box.plane[d][1] > box.plane[d][0];
+        if (solid) box_volume *= std::abs(extent(box, d));
       }
       const double degree = solid ? pieces_.volume[k] / box_volume : 0;
       if (std::abs(degree) < 1e-3) continue;
-      if (std::abs(degree - 1) > 1e-3) {
+      if (std::abs(degree - 1) > 1e-3 || !upright) {
+        // Where charts are in the wrong order the solid is inside out, or twice in one place.
         for (int d = 0; d < 3; ++d) {
           for (int sheet : box.sheet[d]) blamed.insert(blamed.end(), cuts_.sheets[sheet].charts.begin(), cuts_.sheets[sheet].charts.end());
         }

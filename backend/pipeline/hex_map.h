@@ -1,4 +1,4 @@
-// The stages blocks, quantize and hex on a given polycuboid map, without CAD (formats: see README of this folder's hex_map section).
+// The stages blocks, quantize and hex on a given polycuboid map, without CAD (file formats: at read_polycuboid).
 #pragma once
 
 #include <string>

@@ -1,4 +1,6 @@
 // CalculiX and Abaqus input: nodes, one element block, node and element sets and a surface for CAD entities.
+#include <charconv>
+
 #include "core/error.h"
 #include "fem/formats.h"
 
@@ -19,6 +21,18 @@ void append_set(std::string& text, const Range& numbers) {
   if (column > 0) text += '\n';
 }
 
+/// CalculiX reads 20 characters of a number and cuts off the rest, exponent and all: the shortest exact text, or one with 13 digits.
+void append_number(std::string& text, double number) {
+  constexpr std::ptrdiff_t kWidth = 20;
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+  if (end - buffer <= kWidth) {
+    text.append(buffer, end);
+  } else {
+    append(text, "%.13g", number);
+  }
+}
+
 std::vector<int> plus_one(std::vector<int> numbers) {
   for (int& number : numbers) ++number;
   return numbers;
@@ -32,8 +46,14 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
     throw InvalidInput("element type " + element_type + " does not fit a mesh of order " + std::to_string(mesh.order));
   std::string text = "** Hexahedral mesh by Polycube. Sets and surfaces are named after CAD entities. Lengths in mm.\n*NODE, NSET=Nall\n";
   text.reserve(mesh.points.size() * 80 + mesh.hexes.size() * 160);
-  for (std::size_t p = 0; p < mesh.points.size(); ++p)
-    append(text, "%zu, %.17g, %.17g, %.17g\n", p + 1, mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]);
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    append(text, "%zu", p + 1);
+    for (double x : mesh.points[p]) {
+      text += ", ";
+      append_number(text, x);
+    }
+    text += '\n';
+  }
   text += "*ELEMENT, TYPE=" + element_type + ", ELSET=Eall\n";
   for (std::size_t h = 0; h < mesh.hexes.size(); ++h) {
     append(text, "%zu", h + 1);

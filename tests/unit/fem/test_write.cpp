@@ -66,6 +66,21 @@ TEST_F(Write, InpLinesHoldAtMostSixteenNumbers) {
   EXPECT_GT(numbers, 100);
 }
 
+TEST_F(Write, InpNumbersFitTheTwentyCharactersThatCalculiXReads) {
+  FemMesh mesh = box(1);
+  mesh.points[0] = Vec3(-1.2345678901234567e-17, -0.0012345678901234567, 1.0 / 3);
+  std::istringstream lines(written(mesh, "a.inp"));
+  std::string line;
+  while (line.rfind("1, ", 0) != 0) ASSERT_TRUE(std::getline(lines, line));
+  std::istringstream fields(line);
+  std::getline(fields, line, ',');
+  for (int k = 0; k < 3; ++k) {
+    std::getline(fields, line, ',');
+    EXPECT_LE(line.size(), 21u) << line;  // with the blank before it
+    EXPECT_NEAR(std::stod(line) / mesh.points[0][k], 1, 1e-12);
+  }
+}
+
 TEST_F(Write, InpRefusesATypeOfTheOtherOrder) { EXPECT_THROW(written(box(1), "a.inp", "C3D20"), InvalidInput); }
 
 TEST_F(Write, EveryFormatGivesAFileAndNothingElse) {

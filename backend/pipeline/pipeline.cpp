@@ -10,6 +10,7 @@
 
 #include "blocks/blocks.h"
 #include "core/error.h"
+#include "fem/fem.h"
 #include "fit/fit.h"
 #include "hex/hex.h"
 #include "label/features.h"
@@ -25,6 +26,10 @@ namespace {
 
 // Good enough to stop looking for a better candidate.
 constexpr double kGoodScaledJacobian = 0.2;
+// CAD edges whose faces meet within 30 degrees of smooth are given up first.
+constexpr double kSmoothBend = std::numbers::pi / 6;
+// Times that edges are given up for one candidate.
+constexpr int kRelaxRounds = 2;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -41,10 +46,7 @@ std::vector<Candidate> candidates(const MeshOptions& options) {
   const double sharp = std::max(smooth, std::numbers::pi / 18);
   return {{"all CAD edges", 100, smooth, true},
           {"all CAD edges, strict labels", 1000, smooth, true},
-          {"sharp CAD edges", 100, sharp, true},
-          {"sharp CAD edges, strict labels", 1000, sharp, true},
-          {"no feature charts", 100, sharp, false},
-          {"no feature charts, strict labels", 1000, sharp, false}};
+          {"sharp CAD edges, no feature charts", 100, sharp, false}};
 }
 
 class Run {
@@ -83,7 +85,7 @@ class Run {
       try {
         MeshResult result = attempt(c);
         if (!best || rank(result) > rank(*best)) best = std::move(result);
-        if (complete(*best) && best->report.quality.min_scaled_jacobian >= kGoodScaledJacobian) break;
+        if (good_enough(*best)) break;
       } catch (const StageFailed& e) {
         monitor_.log("candidate '" + c.name + "' failed in " + e.stage() + ": " + e.what());
         if (!failure) failure = e;
@@ -109,6 +111,12 @@ class Run {
   }
 
   static bool complete(const MeshResult& r) { return r.association.lost_edges.empty() && r.association.lost_vertices.empty(); }
+  // Another candidate can hardly do better than nearly all edges and sound cells.
+  bool good_enough(const MeshResult& r) const {
+    if (complete(r)) return r.report.quality.min_scaled_jacobian >= kGoodScaledJacobian / 2;
+    return 25 * r.association.lost_edges.size() <= static_cast<std::size_t>(model_.edge_count()) &&
+           r.report.quality.min_scaled_jacobian >= kGoodScaledJacobian / 2;
+  }
   // More captured edges first, then the better worst cell.
   static std::pair<double, double> rank(const MeshResult& r) {
     const double quality = r.report.quality.min_scaled_jacobian;
@@ -150,48 +158,74 @@ class Run {
     associate_options.edge_chains = edge_chains(model_, tets);
     for (const FeatureEdge& e : features.edges) {
       if (bend(e.edge) < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
-      if (e.capture == EdgeCapture::kLost) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+      if (e.capture == EdgeCapture::kLost && bend(e.edge) >= c.min_bend) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
-    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-    const Association association =
-        stage("pad", [&] { return associate(model_, tets, map.charts, boundary, associate_options, monitor_); });
-    monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
-                 std::to_string(association.lost_vertices.size()) + " vertices without mesh");
-    std::vector<PadReport> pad_reports;
-    std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, complex.mesh, association, monitor_, &pad_reports); });
-    FitOptions fit_options;
-    if (options_.threads > 0) fit_options.threads = options_.threads;
-    // The first choice usually is the best; the others are fitted only where it falls short.
-    FitReport fitted;
-    std::size_t chosen = 0;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      const FitReport report = stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
-      const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
-      if (i == 0 || rank_of(report) > rank_of(fitted)) {
-        fitted = report;
-        chosen = i;
-      }
-      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= fit_options.target_scaled_jacobian) break;
-    }
-    const PadReport& pad_report = pad_reports[chosen];
-    PaddedMesh& padded = choices[chosen];
-    monitor_.log("pad: " + std::to_string(pad_report.added_hexes) + " hexes added, " + std::to_string(pad_report.rings) + " rings, choice " +
-                 std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
-    monitor_.log("fit: min SJ " + std::to_string(fitted.min_scaled_jacobian) + ", mean " + std::to_string(fitted.mean_scaled_jacobian) + ", " +
-                 std::to_string(fitted.inverted) + " inverted");
-    if (fitted.inverted > 0) {
-      std::vector<CadRef> faces;
-      for (int f : fitted.bad_faces) faces.push_back({2, f});
-      throw StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
-    }
-    gate(padded);
+    PaddedMesh padded = capture_and_fit(tets, map, complex, std::move(associate_options), result.report);
     result.report.charts = static_cast<int>(map.charts.size());
     result.report.blocks = static_cast<int>(blocks.blocks.size());
     result.report.quantization_objective = quantization.objective;
     result.report.quantization_bound = quantization.bound;
-    result.report.padded_hexes = pad_report.added_hexes;
     finish(result, std::move(padded));
     return result;
+  }
+
+  // Association, padding and fit. Where cells stay inverted the CAD edges of the faces there are given up, smooth ones first: a mesh that misses an
+  // edge is worth more than none.
+  PaddedMesh capture_and_fit(const TetMesh& tets, const PolycuboidMap& map, const HexComplex& complex, AssociateOptions options, MeshReport& report) {
+    for (int round = 0;; ++round) {
+      const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+      const Association association = stage("pad", [&] { return associate(model_, tets, map.charts, boundary, options, monitor_); });
+      monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
+                   std::to_string(association.lost_vertices.size()) + " vertices without mesh");
+      FitReport fitted;
+      PaddedMesh padded = pad_and_fit(complex.mesh, association, fitted, report);
+      if (fitted.inverted == 0) {
+        gate(padded);
+        return padded;
+      }
+      const bool fewer = round < kRelaxRounds && (give_up(fitted.bad_faces, kSmoothBend, options) || give_up(fitted.bad_faces, std::numbers::pi, options));
+      if (fewer) continue;
+      std::vector<CadRef> faces;
+      for (int f : fitted.bad_faces) faces.push_back({2, f});
+      throw StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
+    }
+  }
+
+  // Drops the edges of the faces that bend less than `limit`. False if there are none.
+  bool give_up(const std::vector<int>& faces, double limit, AssociateOptions& options) const {
+    bool changed = false;
+    for (int f : faces) {
+      for (int e : model_.face(f).edges) {
+        if (options.edge_chains[e].empty() || bend(e) >= limit) continue;
+        options.edge_chains[e].clear();
+        changed = true;
+      }
+    }
+    return changed;
+  }
+
+  PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, FitReport& fitted, MeshReport& report) {
+    std::vector<PadReport> pad_reports;
+    std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, mesh, association, monitor_, &pad_reports); });
+    FitOptions fit_options;
+    if (options_.threads > 0) fit_options.threads = options_.threads;
+    // The first choice usually is the best; the others are fitted only where it falls short.
+    std::size_t chosen = 0;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      const FitReport next = stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
+      const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
+      if (i == 0 || rank_of(next) > rank_of(fitted)) {
+        fitted = next;
+        chosen = i;
+      }
+      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= fit_options.target_scaled_jacobian) break;
+    }
+    report.padded_hexes = pad_reports[chosen].added_hexes;
+    monitor_.log("pad: " + std::to_string(pad_reports[chosen].added_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) +
+                 " rings, choice " + std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
+    monitor_.log("fit: min SJ " + std::to_string(fitted.min_scaled_jacobian) + ", mean " + std::to_string(fitted.mean_scaled_jacobian) + ", " +
+                 std::to_string(fitted.inverted) + " inverted");
+    return std::move(choices[chosen]);
   }
 
   // How far the faces beside a CAD edge are from smooth, radians.
@@ -223,6 +257,8 @@ class Run {
     }
     const int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(padded.association.quads.size());
     if (euler != model_.euler_characteristic()) throw StageFailed("hex", "the mesh has another topology than the solid");
+    // Solvers look at integration points too; an element that cannot be made there is no better than an inverted one.
+    build_fem_mesh(model_, padded.mesh, padded.association, {options_.order, options_.threads}, monitor_);
   }
 
   void finish(MeshResult& result, PaddedMesh padded) const {

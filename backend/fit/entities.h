@@ -20,6 +20,8 @@ class Entities {
   /// Tells the seed of an edge node before its first projection.
   void set_edge_parameter(int node, double t) { seeds_[node] = Vec2(t, 0); seeded_[node] = 1; }
 
+  double edge_parameter(int node) const { return seeds_[node][0]; }
+
   int dimension(int node) const { return association_.point_cad[node].dim; }
   const CadRef& cad(int node) const { return association_.point_cad[node]; }
   /// The part of `direction` along the entity at the node's last projection.

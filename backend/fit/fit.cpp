@@ -32,14 +32,14 @@ class Fitting {
  public:
   Fitting(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor)
       : model_(model), mesh_(mesh), association_(association), options_(options), monitor_(monitor), graph_(build_hex_graph(mesh)),
-        entities_(model, association, options.threads), descent_(mesh, graph_, entities_, options.threads, monitor) {
+        chains_(model, association), entities_(model, association, options.threads), descent_(mesh, graph_, entities_, options.threads, monitor) {
     whole_.hexes.resize(mesh.hexes.size());
     std::iota(whole_.hexes.begin(), whole_.hexes.end(), 0);
     whole_.nodes = movable(whole_.hexes);
   }
 
   FitReport run() {
-    place_on_cad(model_, mesh_, association_, entities_, monitor_);
+    place_on_cad(model_, mesh_, association_, chains_, entities_, monitor_);
     best_ = mesh_.points;
     score_ = rate();
     monitor_.progress("fit", 0.15);
@@ -133,6 +133,7 @@ class Fitting {
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
       const DescentResult result = descent_.run(energy, targets, region, iterations);
       entities_.project(mesh_.points);
+      chains_.keep_order(mesh_.points, entities_);
       const bool improved = note_if_best();
       monitor_.progress("fit", 0.15 + 0.35 * round / options_.max_rounds);
       const double reached = descent_.min_determinant(targets, region);
@@ -212,6 +213,7 @@ class Fitting {
   const FitOptions& options_;
   const Monitor& monitor_;
   HexGraph graph_;
+  Chains chains_;
   Entities entities_;
   Descent descent_;
   Region whole_;

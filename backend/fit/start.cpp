@@ -39,14 +39,13 @@ class ArcLength {
   std::vector<double> lengths_;
 };
 
-struct Chain {
+struct NodeChain {
   int edge = 0;
   std::vector<int> nodes;  // in order; the first again at the end of a loop without vertex
-  bool loop = false;
 };
 
 // The segments of each CAD edge joined to chains, from vertex to vertex.
-std::vector<Chain> find_chains(const Association& association) {
+std::vector<NodeChain> find_chains(const Association& association) {
   std::vector<std::array<int, 3>> halves;  // edge, node, other node
   for (std::size_t s = 0; s < association.segments.size(); ++s) {
     const auto [a, b] = association.segments[s];
@@ -66,12 +65,12 @@ std::vector<Chain> find_chains(const Association& association) {
     }
     return -1;
   };
-  std::vector<Chain> chains;
+  std::vector<NodeChain> chains;
   for (const bool loops : {false, true}) {
     for (std::size_t i = 0; i < halves.size(); ++i) {
       const auto [edge, node, other] = halves[i];
       if (used[i] || (!loops && association.point_cad[node].dim != 0)) continue;
-      Chain chain{edge, {node}, loops};
+      NodeChain chain{edge, {node}};
       for (int next = take(edge, node); next >= 0;) {
         chain.nodes.push_back(next);
         const bool ended = loops ? next == node : association.point_cad[next].dim == 0;
@@ -96,9 +95,52 @@ std::vector<double> spread(const std::vector<double>& gaps, double from, double 
   return lengths;
 }
 
-void place_chain(const CadModel& model, std::vector<Vec3>& points, const Chain& chain, Entities& entities) {
+// Solves for the nodes of `dimension` so that each moves by the mean of its neighbours' displacements; others have moved already.
+void follow(std::vector<Vec3>& points, const std::vector<Vec3>& before, const std::vector<Segment>& edges, const std::vector<char>& free) {
+  std::vector<int> unknown(points.size(), -1);
+  int count = 0;
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (free[v]) unknown[v] = count++;
+  }
+  if (count == 0) return;
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> degree(count, 0);
+  Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(count, 3);
+  for (const auto& [a, b] : edges) {
+    for (const auto& [v, w] : {Segment{a, b}, Segment{b, a}}) {
+      if (unknown[v] < 0) continue;
+      degree[unknown[v]] += 1;
+      if (unknown[w] >= 0) {
+        entries.emplace_back(unknown[v], unknown[w], -1.0);
+      } else {
+        rhs.row(unknown[v]) += (points[w] - before[w]).transpose();
+      }
+    }
+  }
+  // The shift keeps parts without any moved neighbour where they are.
+  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, degree[i] + 1e-6);
+  if (rhs.squaredNorm() == 0) return;
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
+  solver.setTolerance(1e-3);
+  solver.setMaxIterations(200);
+  solver.compute(matrix);
+  const Eigen::MatrixX3d moved = solver.solve(rhs);
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    if (unknown[v] >= 0) points[v] += moved.row(unknown[v]).transpose();
+  }
+}
+
+std::vector<Segment> unique_edges(std::vector<Segment> edges) {
+  for (auto& e : edges) std::sort(e.begin(), e.end());
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+void place_chain(const CadModel& model, const NodeChain& chain, const ArcLength& arc, std::vector<Vec3>& points, Entities& entities) {
   const CadEdge& edge = model.edge(chain.edge);
-  const ArcLength arc(model, chain.edge);
   const int count = static_cast<int>(chain.nodes.size());
   std::vector<double> gaps;
   for (int i = 0; i + 1 < count; ++i) gaps.push_back((points[chain.nodes[i + 1]] - points[chain.nodes[i]]).norm());
@@ -149,61 +191,64 @@ void place_chain(const CadModel& model, std::vector<Vec3>& points, const Chain& 
   }
 }
 
-// Solves for the nodes of `dimension` so that each moves by the mean of its neighbours' displacements; others have moved already.
-void follow(std::vector<Vec3>& points, const std::vector<Vec3>& before, const std::vector<Segment>& edges, const std::vector<char>& free) {
-  std::vector<int> unknown(points.size(), -1);
-  int count = 0;
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (free[v]) unknown[v] = count++;
-  }
-  if (count == 0) return;
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> degree(count, 0);
-  Eigen::MatrixX3d rhs = Eigen::MatrixX3d::Zero(count, 3);
-  for (const auto& [a, b] : edges) {
-    for (const auto& [v, w] : {Segment{a, b}, Segment{b, a}}) {
-      if (unknown[v] < 0) continue;
-      degree[unknown[v]] += 1;
-      if (unknown[w] >= 0) {
-        entries.emplace_back(unknown[v], unknown[w], -1.0);
-      } else {
-        rhs.row(unknown[v]) += (points[w] - before[w]).transpose();
-      }
-    }
-  }
-  // The shift keeps parts without any moved neighbour where they are.
-  for (int i = 0; i < count; ++i) entries.emplace_back(i, i, degree[i] + 1e-6);
-  if (rhs.squaredNorm() == 0) return;
-  Eigen::SparseMatrix<double> matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> solver;
-  solver.setTolerance(1e-3);
-  solver.setMaxIterations(200);
-  solver.compute(matrix);
-  const Eigen::MatrixX3d moved = solver.solve(rhs);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    if (unknown[v] >= 0) points[v] += moved.row(unknown[v]).transpose();
-  }
-}
-
-std::vector<Segment> unique_edges(std::vector<Segment> edges) {
-  for (auto& e : edges) std::sort(e.begin(), e.end());
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
 }  // namespace
 
-void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, Entities& entities, const Monitor& monitor) {
+struct Chains::Chain {
+  NodeChain nodes;
+  ArcLength arc;
+};
+
+Chains::Chains(const CadModel& model, const Association& association) : model_(model) {
+  for (const NodeChain& chain : find_chains(association)) {
+    chains_.push_back(std::make_shared<const Chain>(Chain{chain, ArcLength(model, chain.edge)}));
+  }
+}
+
+void Chains::place(std::vector<Vec3>& points, Entities& entities) const {
+  for (const auto& chain : chains_) place_chain(model_, chain->nodes, chain->arc, points, entities);
+}
+
+void Chains::keep_order(std::vector<Vec3>& points, Entities& entities) const {
+  for (const auto& chain : chains_) {
+    const auto& [edge, nodes] = chain->nodes;
+    const int count = static_cast<int>(nodes.size());
+    if (count < 3 || entities.dimension(nodes.front()) != 0 || entities.dimension(nodes.back()) != 0) continue;
+    const double total = chain->arc.total(), least = 0.1 * total / (count - 1);
+    std::vector<double> s(count, 0);
+    for (int i = 1; i + 1 < count; ++i) s[i] = chain->arc.length(entities.edge_parameter(nodes[i]));
+    // The direction of the chain is that in which most of its pairs go.
+    const CadEdge& cad = model_.edge(edge);
+    bool forward = cad.vertices[0] == entities.cad(nodes.front()).id;
+    if (cad.vertices[0] == cad.vertices[1]) {
+      int rising = 0;
+      for (int i = 1; i + 2 < count; ++i) rising += s[i + 1] > s[i] ? 1 : -1;
+      forward = rising >= 0;
+    }
+    if (!forward) {
+      for (double& x : s) x = total - x;
+    }
+    s.front() = 0;
+    s.back() = total;
+    const std::vector<double> before = s;
+    for (int i = 1; i + 1 < count; ++i) s[i] = std::max(s[i], s[i - 1] + least);
+    for (int i = count - 2; i > 0; --i) s[i] = std::min(s[i], s[i + 1] - least);
+    for (int i = 1; i + 1 < count; ++i) {
+      if (s[i] == before[i]) continue;
+      const double t = chain->arc.parameter(forward ? s[i] : total - s[i]);
+      entities.set_edge_parameter(nodes[i], t);
+      points[nodes[i]] = entities.project(nodes[i], model_.edge_point(edge, t));
+    }
+  }
+}
+
+void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, const Chains& chains, Entities& entities,
+                  const Monitor& monitor) {
   const std::vector<Vec3> before = mesh.points;
   for (int v : entities.boundary()) {
     if (entities.dimension(v) == 0) mesh.points[v] = model.vertex(entities.cad(v).id);
   }
-  for (const Chain& chain : find_chains(association)) {
-    monitor.check();
-    place_chain(model, mesh.points, chain, entities);
-  }
+  chains.place(mesh.points, entities);
+  monitor.check();
   std::vector<Segment> surface_edges, edges;
   for (const Quad& q : association.quads) {
     for (int k = 0; k < 4; ++k) surface_edges.push_back({q[k], q[(k + 1) % 4]});

@@ -312,7 +312,16 @@ class Assembly {
         }
       });
     }
-    Coarse coarse = coarsen(complex_.blocks, planes_, touched, map_.charts);
+    Coarse coarse;
+    try {
+      coarse = coarsen(complex_.blocks, planes_, touched, map_.charts, {});
+    } catch (const StageFailed&) {
+      // Sheets that folds leave incomplete: keep all, charts of one plane sharing their integer where only that joins a sheet to a chart.
+      std::array<std::vector<int>, 3> chart_of_plane;
+      for (int d = 0; d < 3; ++d) chart_of_plane[d].resize(cuts_.planes[d].size());
+      for (int c = static_cast<int>(map_.charts.size()) - 1; c >= 0; --c) chart_of_plane[map_.charts[c].axis][cuts_.chart_plane[c]] = c;
+      coarse = coarsen(complex_.blocks, planes_, touched, map_.charts, chart_of_plane);
+    }
     complex_.blocks = std::move(coarse.blocks);
     complex_.sheets = std::move(coarse.sheets);
     complex_.unknown = std::move(coarse.unknown);
@@ -436,7 +445,7 @@ BlockComplex extract(const TetMesh& tets, const PolycuboidMap& map, const TetTop
   if (!report.lost_charts.empty()) fail("charts that bound no volume in the image of the map", report.lost_charts, tets, map);
   if (report.bare_sides > 0) fail("blocks have sides on no chart", {}, tets, map);
   if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
-  if (report.nonmanifold_edges > 0) fail("the boundary of the blocks is not a manifold", {}, tets, map);
+  if (report.nonmanifold_edges > 0) fail("charts touch, the boundary of the blocks is not a manifold", report.touching_charts, tets, map);
   if (report.euler != euler_characteristic(tets.triangles)) fail("the blocks do not have the topology of the solid", {}, tets, map);
   monitor.progress("blocks", 1);
   return complex;

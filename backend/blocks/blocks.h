@@ -48,6 +48,7 @@ struct BlockReport {
   int boundary_quads = 0;
   int euler = 0;                    ///< Euler characteristic of the boundary
   int nonmanifold_edges = 0;        ///< boundary edges without exactly two boundary sides
+  std::vector<int> touching_charts; ///< charts at those edges, ascending
   int asymmetric_neighbours = 0;    ///< sides whose neighbour does not know them, or has another rectangle
   int bare_sides = 0;               ///< boundary sides that lie on no chart
   std::vector<int> lost_charts;     ///< charts (neither features nor collapsed) on no block side

@@ -10,7 +10,7 @@ BlockReport check(const BlockComplex& complex, const PolycuboidMap& map) {
   BlockReport report;
   report.blocks = static_cast<int>(complex.blocks.size());
   std::vector<char> present(map.charts.size(), 0);
-  std::map<std::array<int, 2>, int> edges;
+  std::map<std::array<int, 2>, std::vector<int>> edges;  // charts of the sides there
   std::vector<char> on_boundary(complex.vertex_count, 0);
   for (int b = 0; b < report.blocks; ++b) {
     const Block& block = complex.blocks[b];
@@ -37,12 +37,18 @@ BlockReport check(const BlockComplex& complex, const PolycuboidMap& map) {
       }
       for (int k = 0; k < 4; ++k) {
         const int u = block.corners[kHexFaces[side][k]], v = block.corners[kHexFaces[side][(k + 1) % 4]];
-        ++edges[{std::min(u, v), std::max(u, v)}];
+        edges[{std::min(u, v), std::max(u, v)}].push_back(block.side_chart[side]);
         on_boundary[u] = 1;
       }
     }
   }
-  for (const auto& [edge, count] : edges) report.nonmanifold_edges += count != 2;
+  for (const auto& [edge, charts] : edges) {
+    if (charts.size() == 2) continue;
+    ++report.nonmanifold_edges;
+    report.touching_charts.insert(report.touching_charts.end(), charts.begin(), charts.end());
+  }
+  std::sort(report.touching_charts.begin(), report.touching_charts.end());
+  report.touching_charts.erase(std::unique(report.touching_charts.begin(), report.touching_charts.end()), report.touching_charts.end());
   report.euler = static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), 1)) - static_cast<int>(edges.size()) + report.boundary_quads;
   for (std::size_t c = 0; c < map.charts.size(); ++c) {
     const bool collapsed = std::binary_search(complex.collapsed.begin(), complex.collapsed.end(), static_cast<int>(c));

@@ -9,7 +9,7 @@
 namespace polycube {
 
 Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& planes, const std::vector<std::array<int, 3>>& touched,
-               const std::vector<Chart>& charts) {
+               const std::vector<Chart>& charts, const std::array<std::vector<int>, 3>& chart_of_plane) {
   const int count = static_cast<int>(fine.size());
   // A face between two blocks has the number of the upper one's low side.
   const auto face = [&](int block, int side) {
@@ -32,6 +32,14 @@ Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& p
   for (int b = 0; b < count; ++b) {
     for (int side = 0; side < 6; ++side) {
       if (fine[b].neighbours[side] < 0 && fine[b].side_chart[side] >= 0) contact.push_back({sheet_of.find(face(b, side)), fine[b].side_chart[side]});
+    }
+  }
+  std::vector<char> has_chart(static_cast<std::size_t>(6 * count), 0);
+  for (const auto& [sheet, chart] : contact) has_chart[sheet] = 1;
+  for (int b = 0; b < count; ++b) {
+    for (int side = 0; side < 6; ++side) {
+      const int axis = side / 2, sheet = sheet_of.find(face(b, side));
+      if (!has_chart[sheet] && !chart_of_plane[axis].empty()) contact.push_back({sheet, chart_of_plane[axis][planes[b][axis][side % 2]]});
     }
   }
   for (const auto& [block, side, feature] : touched) contact.push_back({sheet_of.find(face(block, side)), feature});

@@ -16,8 +16,9 @@ struct Coarse {
   std::vector<int> block_of;          ///< per fine block
 };
 
-/// `touched`: (fine block, side, feature) where a feature's node stands on the side. Throws StageFailed when blocks do not merge to boxes.
+/// `touched`: (fine block, side, feature) where a feature's node stands on the side. `chart_of_plane`: per axis and plane the chart that a sheet
+/// without chart is given instead of being dropped; empty: drop. Throws StageFailed when blocks do not merge to boxes.
 Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& planes, const std::vector<std::array<int, 3>>& touched,
-               const std::vector<Chart>& charts);
+               const std::vector<Chart>& charts, const std::array<std::vector<int>, 3>& chart_of_plane);
 
 }  // namespace polycube

@@ -139,6 +139,28 @@ TEST(Polycubes, FlippedAndSquashedTets) {
   EXPECT_GT(flipped, 1000);
 }
 
+// Nodes of charts and of their borders overshoot: sheets are torn, charts fold over their borders.
+TEST(Polycubes, FoldedBoundaries) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(3000 + seed);
+    std::uniform_real_distribution<double> unit(0, 1);
+    Example e = testing::tetrahedralise(testing::random_cells(random, 3 + static_cast<int>(seed % 5), 3), 3);
+    testing::set_values(e, random_values(e, random, 0.3));
+    std::vector<std::array<char, 3>> fixed(e.tets.points.size(), {0, 0, 0});
+    for (const Chart& chart : e.map.charts) {
+      for (int n : chart.nodes) fixed[n][chart.axis] = 1;
+    }
+    for (std::size_t n = 0; n < fixed.size(); ++n) {
+      if (e.inner[n] || unit(random) > 0.3) continue;
+      for (int d = 0; d < 3; ++d) {
+        if (!fixed[n][d]) e.map.image[n][d] += 2 * unit(random) - 1;
+      }
+    }
+    const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
+    for (double scale : {0.0, 1.0}) expect_valid(e, scale, "seed " + std::to_string(seed), blocks);
+  }
+}
+
 TEST(Polycubes, OverlappingSpirals) {
   for (int corners = 1; corners <= 9; ++corners) {
     std::mt19937 random(static_cast<unsigned>(corners));

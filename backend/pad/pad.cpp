@@ -16,8 +16,8 @@ struct Choice {
   double gain = 0;
 };
 
-// A choice that leaves this much more to be desired than the best leaves a cell flat that the best does not.
-constexpr double kHopeless = 500;
+// A choice that leaves this much more to be desired than the best leaves two cells flat that the best does not.
+constexpr double kHopeless = 2500;
 
 }  // namespace
 

@@ -113,12 +113,12 @@ class Chooser {
     return best;
   }
 
-  // Chains of edges at fault inside smooth regions, by edge index.
+  // Chains of edges at fault, inside smooth regions or concave, by edge index.
   std::vector<std::vector<int>> faults() const {
     std::vector<std::vector<int>> node_edges(mesh_.points.size()), chains;
     std::vector<char> open(edges_.size(), 0);
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-      if (angles_[e] <= kWidestEnd || angles_[e] >= kConcave || angle_cost(edges_[e].hexes, angles_[e]) < kBadEdge) continue;
+      if (angles_[e] <= kWidestEnd || angle_cost(edges_[e].hexes, angles_[e]) < kBadEdge) continue;
       open[e] = 1;
       node_edges[edges_[e].a].push_back(e);
       node_edges[edges_[e].b].push_back(e);

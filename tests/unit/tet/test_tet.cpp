@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -201,7 +202,7 @@ TEST(Sizes, FollowCurvatureWithinBounds) {
 /// A script in the worker's place.
 class FakeWorker {
  public:
-  explicit FakeWorker(const std::string& body) : real_(find_worker()), path_(std::filesystem::path(::testing::TempDir()) / "fake-polycube-tet"), count_(path_.string() + ".count") {
+  explicit FakeWorker(const std::string& body) : real_(find_worker()), path_(std::filesystem::path(::testing::TempDir()) / ("fake-polycube-tet-" + std::to_string(getpid()))), count_(path_.string() + ".count") {
     std::filesystem::remove(count_);
     std::ofstream(path_) << "#!/bin/sh\necho x >> '" << count_.string() << "'\nattempt=$(wc -l < '" << count_.string() << "')\nreal='" << real_ << "'\n" << body << "\n";
     chmod(path_.c_str(), 0700);

@@ -57,7 +57,8 @@ struct PlaneArea {
 };
 
 struct Box {
-  std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}}, chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
+  std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}},
+      chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
 };
 
 class Assembly {
@@ -82,9 +83,7 @@ class Assembly {
   }
 
  private:
-  double extent(const Box& box, int axis) const {
-    return cuts_.planes[axis][box.plane[axis][1]] - cuts_.planes[axis][box.plane[axis][0]];
-  }
+  double extent(const Box& box, int axis) const { return cuts_.planes[axis][box.plane[axis][1]] - cuts_.planes[axis][box.plane[axis][0]]; }
 
   /// The box of every component. Over the planes of an axis the net areas sum to 0; a block has its face's area at its high plane, the
   /// opposite at its low plane, and nothing between: folds of tets and of charts cancel.
@@ -235,7 +234,8 @@ class Assembly {
           for (int c : cuts_of[reached[i]]) {
             const Flux& f = pieces_.fluxes[c];
             const int to = f.low == reached[i] ? f.high : f.low;
-            if (f.axis != axis || f.plane != plane || f.area == 0 || std::find(reached.begin(), reached.end(), to) != reached.end()) continue;
+            if (f.axis != axis || f.plane != plane || f.area == 0 || std::find(reached.begin(), reached.end(), to) != reached.end())
+              continue;
             const int other = block_of_[to];
             if (other < 0) {
               reached.push_back(to);
@@ -265,8 +265,10 @@ class Assembly {
   /// Whether a block has the same rectangle on the other side of a block's side, and nothing there yet.
   bool fits(int block, int other, int side) const {
     const int axis = side / 2;
-    if (complex_.blocks[other].neighbours[side ^ 1] >= 0 || planes_[other][axis][1 - side % 2] != planes_[block][axis][side % 2]) return false;
-    return planes_[other][(axis + 1) % 3] == planes_[block][(axis + 1) % 3] && planes_[other][(axis + 2) % 3] == planes_[block][(axis + 2) % 3];
+    if (complex_.blocks[other].neighbours[side ^ 1] >= 0 || planes_[other][axis][1 - side % 2] != planes_[block][axis][side % 2])
+      return false;
+    return planes_[other][(axis + 1) % 3] == planes_[block][(axis + 1) % 3] &&
+           planes_[other][(axis + 2) % 3] == planes_[block][(axis + 2) % 3];
   }
 
   /// Where a chart overshoots its border and folds back, the two layers cancel, but the blocks on both sides have them as their boundary:
@@ -308,7 +310,8 @@ class Assembly {
       for_blocks_at_nodes(c, [&](int node, int block) {
         const int axis = map_.charts[c].axis;
         for (int s : {0, 1}) {
-          if (planes_[block][axis][s] == cuts_.chart_plane[c] && in_box(cuts_.image[node], block)) touched.push_back({block, 2 * axis + s, c});
+          if (planes_[block][axis][s] == cuts_.chart_plane[c] && in_box(cuts_.image[node], block))
+            touched.push_back({block, 2 * axis + s, c});
         }
       });
     }
@@ -426,9 +429,9 @@ class Assembly {
   const TetTopology& topology_;
   const SheetCuts& cuts_;
   const Pieces& pieces_;
-  std::vector<Box> boxes_;         ///< per component
-  std::vector<int> block_of_;      ///< per component, or -1
-  std::vector<int> component_of_;  ///< per block, before sheets are dropped
+  std::vector<Box> boxes_;           ///< per component
+  std::vector<int> block_of_;        ///< per component, or -1
+  std::vector<int> component_of_;    ///< per block, before sheets are dropped
   std::vector<BlockPlanes> planes_;  ///< per block
   BlockComplex complex_;
 };

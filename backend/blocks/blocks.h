@@ -7,29 +7,30 @@
 namespace polycube {
 
 struct Block {
-  std::array<std::array<int, 2>, 3> charts{};      ///< per axis: the charts of its low and its high side (see BlockComplex::unknown)
-  std::array<std::array<int, 2>, 3> sheets{};      ///< per axis: the sheets its low and its high side lie on
-  std::array<int, 8> corners{};                    ///< block vertices, in the order of core/hexahedron.h
-  std::array<int, 6> neighbours{};                 ///< per side (-u +u -v +v -w +w): the block there, or -1
-  std::array<int, 6> side_chart{};                 ///< per side: the boundary chart lying on it, or -1 inside
-  double volume = 0;                               ///< of its image
-  std::vector<int> tets;                           ///< tets that cover it, ascending
+  std::array<std::array<int, 2>, 3> charts{};  ///< per axis: the charts of its low and its high side (see BlockComplex::unknown)
+  std::array<std::array<int, 2>, 3> sheets{};  ///< per axis: the sheets its low and its high side lie on
+  std::array<int, 8> corners{};                ///< block vertices, in the order of core/hexahedron.h
+  std::array<int, 6> neighbours{};             ///< per side (-u +u -v +v -w +w): the block there, or -1
+  std::array<int, 6> side_chart{};             ///< per side: the boundary chart lying on it, or -1 inside
+  double volume = 0;                           ///< of its image
+  std::vector<int> tets;                       ///< tets that cover it, ascending
 };
 
 /// A connected component of a chart's plane cut through the solid, with the charts it touches.
 struct Sheet {
   int axis = 0;
-  int unknown = 0;           ///< chart that stands for all charts that must get the same integer as this sheet
-  std::vector<int> charts;   ///< charts and features that touch it, ascending
+  int unknown = 0;          ///< chart that stands for all charts that must get the same integer as this sheet
+  std::vector<int> charts;  ///< charts and features that touch it, ascending
 };
 
 struct BlockComplex {
   std::vector<Block> blocks;
   int vertex_count = 0;
-  std::vector<std::array<int, 3>> vertex_charts;   ///< per block vertex and axis: the chart (unknown) whose plane it lies on
+  std::vector<std::array<int, 3>> vertex_charts;  ///< per block vertex and axis: the chart (unknown) whose plane it lies on
   std::vector<Sheet> sheets;
   /// Per chart: the chart whose integer it takes. Charts of one axis whose planes are one sheet share it: the smallest of them.
-  /// -1 for a feature that no sheet reaches and for a collapsed chart that has no part in another chart's sheet. Block::charts, vertex_charts and Sheet::unknown hold such representatives only.
+  /// -1 for a feature that no sheet reaches and for a collapsed chart that has no part in another chart's sheet. Block::charts,
+  /// vertex_charts and Sheet::unknown hold such representatives only.
   std::vector<int> unknown;
   /// Charts (not features) whose image has no net area, ascending: a label that the map folds away. They bound no block and cut nothing.
   std::vector<int> collapsed;
@@ -46,14 +47,15 @@ BlockComplex extract_blocks(const TetMesh& tets, const PolycuboidMap& map, const
 struct BlockReport {
   int blocks = 0;
   int boundary_quads = 0;
-  int euler = 0;                    ///< Euler characteristic of the boundary
-  int nonmanifold_edges = 0;        ///< boundary edges without exactly two boundary sides
-  std::vector<int> touching_charts; ///< charts at those edges, ascending
-  int asymmetric_neighbours = 0;    ///< sides whose neighbour does not know them, or has another rectangle
-  int bare_sides = 0;               ///< boundary sides that lie on no chart
-  std::vector<int> lost_charts;     ///< charts (neither features nor collapsed) on no block side
+  int euler = 0;                     ///< Euler characteristic of the boundary
+  int nonmanifold_edges = 0;         ///< boundary edges without exactly two boundary sides
+  std::vector<int> touching_charts;  ///< charts at those edges, ascending
+  int asymmetric_neighbours = 0;     ///< sides whose neighbour does not know them, or has another rectangle
+  int bare_sides = 0;                ///< boundary sides that lie on no chart
+  std::vector<int> lost_charts;      ///< charts (neither features nor collapsed) on no block side
   bool good(int solid_euler) const {
-    return blocks > 0 && nonmanifold_edges == 0 && asymmetric_neighbours == 0 && bare_sides == 0 && lost_charts.empty() && euler == solid_euler;
+    return blocks > 0 && nonmanifold_edges == 0 && asymmetric_neighbours == 0 && bare_sides == 0 && lost_charts.empty() &&
+           euler == solid_euler;
   }
 };
 BlockReport check(const BlockComplex& blocks, const PolycuboidMap& map);

@@ -44,8 +44,8 @@ class TetClipper {
 
   std::vector<Vec3> points_;
   Polyhedron whole_;
-  std::vector<std::array<int, 3>> cuts_;    ///< below, above, point on the plane
-  std::vector<std::array<int, 2>> next_;    ///< edges of the cut's outline
+  std::vector<std::array<int, 3>> cuts_;  ///< below, above, point on the plane
+  std::vector<std::array<int, 2>> next_;  ///< edges of the cut's outline
 };
 
 }  // namespace polycube

@@ -18,7 +18,7 @@ struct Flux {
 struct ChartArea {
   int component;  ///< piece before components are known
   int chart;
-  double area;    ///< along +axis
+  double area;  ///< along +axis
 };
 
 /// Cuts every tet by its sheets and gathers the pieces that adjoin into components.
@@ -27,9 +27,9 @@ class Pieces {
   Pieces(const TetMesh& mesh, const PolycuboidMap& map, const TetTopology& topology, const SheetCuts& cuts);
   void run(const Monitor& monitor);
 
-  std::vector<int> offset;          ///< CSR: pieces of every tet
-  std::vector<int> component;       ///< per piece, -1 where a tet has no such piece
-  std::vector<double> volume;       ///< per component, signed
+  std::vector<int> offset;     ///< CSR: pieces of every tet
+  std::vector<int> component;  ///< per piece, -1 where a tet has no such piece
+  std::vector<double> volume;  ///< per component, signed
   std::vector<Flux> fluxes;
   std::vector<ChartArea> chart_areas;
 

@@ -26,9 +26,8 @@ void find_planes(const PolycuboidMap& map, SheetCuts& cuts) {
     for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
       if (map.charts[c].axis == axis) order.push_back(c);
     }
-    std::sort(order.begin(), order.end(), [&](int a, int b) {
-      return map.charts[a].value != map.charts[b].value ? map.charts[a].value < map.charts[b].value : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return map.charts[a].value != map.charts[b].value ? map.charts[a].value < map.charts[b].value : a < b; });
     double last = 0;
     for (int c : order) {
       const Chart& chart = map.charts[c];
@@ -205,11 +204,11 @@ class SheetFinder {
   const PolycuboidMap& map_;
   const TetTopology& topology_;
   SheetCuts& cuts_;
-  std::vector<int> sheet_of_;                      ///< per tet on the plane at hand
+  std::vector<int> sheet_of_;  ///< per tet on the plane at hand
   std::vector<std::pair<int, Cut>> passed_;
   std::size_t plane_begin_ = 0;
   int raw_sheets_ = 0;
-  std::vector<std::pair<int, int>> touches_;       ///< sheet, chart
+  std::vector<std::pair<int, int>> touches_;  ///< sheet, chart
 };
 
 }  // namespace

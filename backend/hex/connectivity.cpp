@@ -12,7 +12,8 @@ namespace {
 /// Lattice of a block: (n + 1) points along each axis; a block of no extent has one layer and glues its two sides.
 class Lattice {
  public:
-  Lattice(const BlockComplex& complex, const std::vector<int>& value) : extent_(complex.blocks.size()), first_(complex.blocks.size() + 1, 0) {
+  Lattice(const BlockComplex& complex, const std::vector<int>& value)
+      : extent_(complex.blocks.size()), first_(complex.blocks.size() + 1, 0) {
     for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
       for (int d = 0; d < 3; ++d) {
         const auto [low, high] = complex.blocks[b].charts[d];

@@ -122,9 +122,7 @@ class Placement {
     }
   }
 
-  bool stands_on(int point, int chart) const {
-    return std::binary_search(node_charts_[point].begin(), node_charts_[point].end(), chart);
-  }
+  bool stands_on(int point, int chart) const { return std::binary_search(node_charts_[point].begin(), node_charts_[point].end(), chart); }
   bool stands_on_all(int point, const std::array<int, 3>& charts) const {
     return std::all_of(charts.begin(), charts.end(), [&](int c) { return c < 0 || stands_on(point, c); });
   }
@@ -281,7 +279,8 @@ class Placement {
   }
 
   /// Nearest place to p on edges whose ends stand on all of `charts`; of those at hand before others.
-  std::optional<Vec3> on_edges(const std::vector<BoundaryEdge>& edges, const Vec3& p, const std::array<int, 3>& charts, double within) const {
+  std::optional<Vec3> on_edges(const std::vector<BoundaryEdge>& edges, const Vec3& p, const std::array<int, 3>& charts,
+                               double within) const {
     double nearest = kInfinity;
     bool nearest_near = false;
     std::optional<Vec3> result;
@@ -318,7 +317,8 @@ class Placement {
   bool corner_near(int point) const {
     return std::any_of(near_blocks_.begin(), near_blocks_.end(), [&](int b) {
       const auto& tets = complex_.blocks[b].tets;
-      return std::any_of(tets.begin(), tets.end(), [&](int t) { return std::count(mesh_.tets[t].begin(), mesh_.tets[t].end(), point) > 0; });
+      return std::any_of(tets.begin(), tets.end(),
+                         [&](int t) { return std::count(mesh_.tets[t].begin(), mesh_.tets[t].end(), point) > 0; });
     });
   }
 
@@ -386,18 +386,19 @@ class Placement {
   const BlockComplex& complex_;
   Connectivity& connectivity_;
   HexComplex& hexes_;
-  std::vector<int> owner_;                                        ///< per boundary triangle: its tet
-  std::vector<std::vector<int>> node_charts_;                     ///< per tet mesh point: charts and features it stands on
+  std::vector<int> owner_;                                           ///< per boundary triangle: its tet
+  std::vector<std::vector<int>> node_charts_;                        ///< per tet mesh point: charts and features it stands on
   std::map<std::array<int, 2>, std::vector<BoundaryEdge>> between_;  ///< by pair of charts
-  std::vector<std::vector<BoundaryEdge>> feature_edges_;          ///< per chart
+  std::vector<std::vector<BoundaryEdge>> feature_edges_;             ///< per chart
   double on_feature_ = 0;
   std::vector<std::optional<BoxGrid>> chart_grids_, block_grids_;  ///< made when first asked
-  std::vector<int> near_blocks_;                                  ///< of the node at hand
+  std::vector<int> near_blocks_;                                   ///< of the node at hand
 };
 
 }  // namespace
 
-void place_nodes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, Connectivity& connectivity, const Monitor& monitor) {
+void place_nodes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, Connectivity& connectivity,
+                 const Monitor& monitor) {
   Placement(tets, map, blocks, connectivity).run(monitor);
 }
 

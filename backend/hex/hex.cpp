@@ -63,7 +63,8 @@ HexReport check(const HexComplex& complex, const PolycuboidMap& map, const Block
     for (const auto& f : kHexFaces) faces.push_back({sorted({hex[f[0]], hex[f[1]], hex[f[2]], hex[f[3]]}), h});
   }
   for (const Quad& q : complex.quads) faces.push_back({sorted(q), -1});
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.hex < b.hex; });
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.hex < b.hex; });
   UnionFind cells(complex.mesh.hexes.size());
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t j = i;
@@ -76,8 +77,8 @@ HexReport check(const HexComplex& complex, const PolycuboidMap& map, const Block
   }
   for (int h = 0; h < report.hexes; ++h) report.components += cells.find(h) == h;
 
-  std::vector<std::array<int, 3>> edges;                 // ends ascending, quad
-  std::vector<std::array<int, 2>> corners;               // node, quad
+  std::vector<std::array<int, 3>> edges;    // ends ascending, quad
+  std::vector<std::array<int, 2>> corners;  // node, quad
   for (int q = 0; q < static_cast<int>(complex.quads.size()); ++q) {
     for (int k = 0; k < 4; ++k) {
       const int a = complex.quads[q][k], b = complex.quads[q][(k + 1) % 4];

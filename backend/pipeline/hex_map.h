@@ -22,12 +22,12 @@ PolycuboidInput read_polycuboid(const std::string& tets_path, const std::string&
 void place_charts(PolycuboidInput& input, const std::vector<int>& triangle_labels);
 
 struct HexMapOptions {
-  QuantizeOptions quantize;     ///< scale is in hex edges per unit of the map
-  bool scale_by_tets = true;    ///< scale is the hex edge over the mean tet edge in the map instead; 0: coarsest
+  QuantizeOptions quantize;   ///< scale is in hex edges per unit of the map
+  bool scale_by_tets = true;  ///< scale is the hex edge over the mean tet edge in the map instead; 0: coarsest
 };
 
 struct HexMapResult {
-  double scale = 0;             ///< eta used
+  double scale = 0;  ///< eta used
   BlockComplex blocks;
   Quantization quantization;
   HexComplex hexes;

@@ -86,7 +86,8 @@ AxisSolution solve(const AxisProblem& problem, const std::vector<Difference>& ex
   solution.values.resize(n);
   for (int i = 0; i < n; ++i) solution.values[i] = static_cast<int>(simplex.potential(graph.nodeFromId(i)));
   const auto holds = [&](const Difference& d) { return solution.values[d.high] - solution.values[d.low] >= d.at_least; };
-  solution.feasible = std::all_of(problem.differences.begin(), problem.differences.end(), holds) && std::all_of(extra.begin(), extra.end(), holds);
+  solution.feasible =
+      std::all_of(problem.differences.begin(), problem.differences.end(), holds) && std::all_of(extra.begin(), extra.end(), holds);
   if (!solution.feasible) return solution;
   const int smallest = n > 0 ? *std::min_element(solution.values.begin(), solution.values.end()) : 0;
   for (int& v : solution.values) v -= smallest;

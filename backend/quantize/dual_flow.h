@@ -7,9 +7,9 @@ namespace polycube {
 
 struct AxisSolution {
   bool feasible = false;
-  std::vector<int> values;   ///< per unknown, smallest 0
+  std::vector<int> values;  ///< per unknown, smallest 0
   double objective = 0;
-  double bound = 0;          ///< value of the dual flow: no integers have a smaller objective (up to rounding of the weights, 2^-50 of their sum)
+  double bound = 0;  ///< value of the dual flow: no integers have a smaller objective (up to rounding of the weights, 2^-50 of their sum)
 };
 
 /// Minimises the terms under the problem's differences and `extra` ones.

@@ -32,8 +32,8 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
       int axis = 0;
       while (kCornerCoordinates[i][axis] == kCornerCoordinates[j][axis]) ++axis;
       const bool forward = kCornerCoordinates[i][axis] == 0;
-      edges_.push_back({axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]],
-                        block.corners[forward ? i : j], block.corners[forward ? j : i]});
+      edges_.push_back({axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]], block.corners[forward ? i : j],
+                        block.corners[forward ? j : i]});
     }
   }
   if (features) {

@@ -34,10 +34,10 @@ class MonotonePaths {
   const std::vector<char>& on_chart() const { return on_chart_; }
 
  private:
-  std::vector<Edge> edges_;                      ///< distinct
+  std::vector<Edge> edges_;  ///< distinct
   std::vector<std::array<int, 3>> unknown_;
   std::vector<char> on_chart_;
-  std::array<std::vector<int>, 4> order_;        ///< per octant with +u: edges so that every path meets them in turn
+  std::array<std::vector<int>, 4> order_;  ///< per octant with +u: edges so that every path meets them in turn
 };
 
 }  // namespace polycube

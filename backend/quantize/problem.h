@@ -22,14 +22,14 @@ struct Difference {
 
 /// One axis; low and high are numbers of unknowns of this axis.
 struct AxisProblem {
-  std::vector<int> charts;                ///< per unknown: its chart (BlockComplex::unknown)
-  std::vector<Term> terms;                ///< sorted, one per (low, high, target)
-  std::vector<Difference> differences;    ///< sorted, one per (low, high): C1, opposite charts, engineer's
+  std::vector<int> charts;              ///< per unknown: its chart (BlockComplex::unknown)
+  std::vector<Term> terms;              ///< sorted, one per (low, high, target)
+  std::vector<Difference> differences;  ///< sorted, one per (low, high): C1, opposite charts, engineer's
 };
 
 struct QuantizeProblem {
   std::array<AxisProblem, 3> axes;
-  std::vector<int> number;                ///< per chart: its unknown's number in its axis, -1 without sheet
+  std::vector<int> number;  ///< per chart: its unknown's number in its axis, -1 without sheet
 };
 
 /// Throws InvalidInput on constraints between charts that have no common axis, and on options out of bounds.

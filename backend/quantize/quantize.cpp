@@ -23,7 +23,7 @@ using Differences = std::array<std::vector<Difference>, 3>;
 struct Node {
   int id = 0;
   double bound = 0;
-  Differences extra;                                            ///< decided by branching, sorted
+  Differences extra;  ///< decided by branching, sorted
   std::array<std::shared_ptr<const AxisSolution>, 3> solution;
 };
 
@@ -191,8 +191,8 @@ class Search {
   const QuantizeProblem& problem_;
   const Monitor& monitor_;
   MonotonePaths paths_;
-  Differences always_;        ///< C2 constraints with one alternative
-  std::vector<Cut2> seen_;    ///< sorted
+  Differences always_;      ///< C2 constraints with one alternative
+  std::vector<Cut2> seen_;  ///< sorted
   int nodes_ = 0;
 };
 

@@ -8,32 +8,34 @@
 
 namespace polycube {
 
-/// What an engineer asks of the distance between two charts (features included) of one axis: at_least <= value[high] - value[low] <= at_most.
+/// What an engineer asks of the distance between two charts (features included) of one axis: at_least <= value[high] - value[low] <=
+/// at_most.
 struct DistanceConstraint {
-  int low = 0, high = 0;                           ///< chart indices
+  int low = 0, high = 0;  ///< chart indices
   int at_least = std::numeric_limits<int>::min();
   int at_most = std::numeric_limits<int>::max();
-  std::string name;                                ///< for messages, e.g. "3 elements between Face2 and Face5"
+  std::string name;  ///< for messages, e.g. "3 elements between Face2 and Face5"
 };
 
 struct QuantizeOptions {
   double scale = 1;  ///< eta of section 6.2: target integer distance = scale * distance in the map; near 0 (or 0) gives the coarsest
-  std::array<double, 3> axis_scale{1, 1, 1};     ///< factor of scale per direction of the map
-  std::vector<double> block_scale;               ///< factor of scale per block (regions); empty: 1
-  int min_layers = 1;                            ///< elements at least between two boundary charts opposite each other
+  std::array<double, 3> axis_scale{1, 1, 1};  ///< factor of scale per direction of the map
+  std::vector<double> block_scale;            ///< factor of scale per block (regions); empty: 1
+  int min_layers = 1;                         ///< elements at least between two boundary charts opposite each other
   std::vector<DistanceConstraint> constraints;
-  bool separate_features = true;                 ///< C2 holds for the block vertices on features too, not only on boundary charts
-  int node_limit = 20000;                        ///< of the search tree; past it the best solution found so far, with its gap
+  bool separate_features = true;  ///< C2 holds for the block vertices on features too, not only on boundary charts
+  int node_limit = 20000;         ///< of the search tree; past it the best solution found so far, with its gap
 };
 
 struct Quantization {
-  std::vector<int> value;   ///< per chart (features included); smallest of each axis 0; a feature without sheet has that of the nearest chart
-  double objective = 0;     ///< Eq. 4
-  double bound = 0;         ///< proved lower bound
-  bool optimal = false;     ///< objective is proved: no better solution is left in the tree
-  int c2_rounds = 0;        ///< times a solution was checked against C2
-  int cuts = 0;             ///< different C2 constraints that were violated on the way
-  int nodes = 0;            ///< of the search tree
+  std::vector<int>
+      value;             ///< per chart (features included); smallest of each axis 0; a feature without sheet has that of the nearest chart
+  double objective = 0;  ///< Eq. 4
+  double bound = 0;      ///< proved lower bound
+  bool optimal = false;  ///< objective is proved: no better solution is left in the tree
+  int c2_rounds = 0;     ///< times a solution was checked against C2
+  int cuts = 0;          ///< different C2 constraints that were violated on the way
+  int nodes = 0;         ///< of the search tree
   double gap() const { return objective > bound ? (objective - bound) / objective : 0; }
 };
 
@@ -43,11 +45,11 @@ Quantization quantize(const BlockComplex& blocks, const PolycuboidMap& map, cons
 
 /// What is wrong with integers given to a block complex; all zero on good ones.
 struct QuantizeReport {
-  int c1 = 0;             ///< blocks' axes where high < low
-  int opposite = 0;       ///< opposite charts nearer than min_layers
-  int c2 = 0;             ///< pairs of charts joined by a monotone path of length 0 (distinct ones found; 0 means there is none)
-  int constraints = 0;    ///< of the engineer
-  double objective = 0;   ///< Eq. 4
+  int c1 = 0;            ///< blocks' axes where high < low
+  int opposite = 0;      ///< opposite charts nearer than min_layers
+  int c2 = 0;            ///< pairs of charts joined by a monotone path of length 0 (distinct ones found; 0 means there is none)
+  int constraints = 0;   ///< of the engineer
+  double objective = 0;  ///< Eq. 4
   bool good() const { return c1 == 0 && opposite == 0 && c2 == 0 && constraints == 0; }
 };
 QuantizeReport check(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options, const std::vector<int>& value);

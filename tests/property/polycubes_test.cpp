@@ -1,4 +1,6 @@
 // Blocks, quantization and hexes of random polycubes: always a valid mesh, always optimal.
+#include "support/polycubes.h"
+
 #include <gtest/gtest.h>
 
 #include <queue>
@@ -7,7 +9,6 @@
 #include "hex/hex.h"
 #include "quantize/monotone.h"
 #include "quantize/problem.h"
-#include "support/polycubes.h"
 
 namespace polycube {
 namespace {
@@ -69,8 +70,12 @@ double brute_force(const BlockComplex& blocks, const PolycuboidMap& map, const Q
   const MonotonePaths paths(blocks, map, problem, options.separate_features);
   std::array<std::vector<std::pair<double, std::vector<int>>>, 3> choices;
   for (int d = 0; d < 3; ++d) choices[d] = assignments(problem.axes[d], most);
-  const auto cost = [&](const std::array<std::size_t, 3>& at) { return choices[0][at[0]].first + choices[1][at[1]].first + choices[2][at[2]].first; };
-  std::priority_queue<std::pair<double, std::array<std::size_t, 3>>, std::vector<std::pair<double, std::array<std::size_t, 3>>>, std::greater<>> open;
+  const auto cost = [&](const std::array<std::size_t, 3>& at) {
+    return choices[0][at[0]].first + choices[1][at[1]].first + choices[2][at[2]].first;
+  };
+  std::priority_queue<std::pair<double, std::array<std::size_t, 3>>, std::vector<std::pair<double, std::array<std::size_t, 3>>>,
+                      std::greater<>>
+      open;
   std::set<std::array<std::size_t, 3>> seen;
   open.push({cost({0, 0, 0}), {0, 0, 0}});
   while (!open.empty()) {
@@ -91,7 +96,8 @@ void expect_valid(const Example& e, double scale, const std::string& what, const
   options.scale = scale;
   const Quantization q = quantize(blocks, e.map, options, Monitor());
   const QuantizeReport report = check(blocks, e.map, options, q.value);
-  EXPECT_TRUE(report.good()) << what << " scale " << scale << ": c1 " << report.c1 << " opposite " << report.opposite << " c2 " << report.c2;
+  EXPECT_TRUE(report.good()) << what << " scale " << scale << ": c1 " << report.c1 << " opposite " << report.opposite << " c2 "
+                             << report.c2;
   EXPECT_TRUE(q.optimal) << what;
   EXPECT_NEAR(report.objective, q.objective, 1e-9 * (1 + q.objective)) << what;
   EXPECT_NEAR(q.bound, q.objective, 1e-9 * (1 + q.objective)) << what;

@@ -91,7 +91,8 @@ inline Cells chain(const std::vector<int>& steps) {
 inline Cells flat_spiral(int corners, int length = 3) {
   std::vector<int> steps;
   const std::array<int, 4> directions{1, 3, 0, 2};
-  for (int c = 0; c <= corners; ++c) steps.insert(steps.end(), static_cast<std::size_t>(length), directions[static_cast<std::size_t>(c % 4)]);
+  for (int c = 0; c <= corners; ++c)
+    steps.insert(steps.end(), static_cast<std::size_t>(length), directions[static_cast<std::size_t>(c % 4)]);
   return chain(steps);
 }
 

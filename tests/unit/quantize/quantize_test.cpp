@@ -53,7 +53,9 @@ TEST(Quantize, BoxTakesTheNearestIntegers) {
 }
 
 // Figure 3: everything rounds to nothing.
-TEST(Quantize, CoarseBoxDoesNotCollapse) { expect_rounding_fails(testing::tetrahedralise(testing::box_cells({1, 1, 1}), 1), 0.1); }
+TEST(Quantize, CoarseBoxDoesNotCollapse) {
+  expect_rounding_fails(testing::tetrahedralise(testing::box_cells({1, 1, 1}), 1), 0.1);
+}
 
 // Figure 8: two dents from opposite sides that miss each other by a thin strip.
 TEST(Quantize, DentsDoNotMeetAcrossAThinStrip) {

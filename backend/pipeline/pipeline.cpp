@@ -29,7 +29,7 @@ constexpr double kGoodScaledJacobian = 0.2;
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
 constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
-constexpr int kRelaxRounds = 2;
+constexpr int kRelaxRounds = 3;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -183,7 +183,7 @@ class Run {
         gate(padded);
         return padded;
       }
-      const bool fewer = round < kRelaxRounds && (give_up(fitted.bad_faces, kSmoothBend, options) || give_up(fitted.bad_faces, std::numbers::pi, options));
+      const bool fewer = round < kRelaxRounds && (give_up(padded, kSmoothBend, options) || give_up(padded, std::numbers::pi, options));
       if (fewer) continue;
       std::vector<CadRef> faces;
       for (int f : fitted.bad_faces) faces.push_back({2, f});
@@ -191,14 +191,21 @@ class Run {
     }
   }
 
-  // Drops the edges of the faces that bend less than `limit`. False if there are none.
-  bool give_up(const std::vector<int>& faces, double limit, AssociateOptions& options) const {
+  // Drops the CAD edges that inverted cells stand on and that bend less than `limit`. False if there are none.
+  bool give_up(const PaddedMesh& padded, double limit, AssociateOptions& options) const {
+    std::vector<std::set<int>> edges_at(padded.mesh.points.size());
+    for (std::size_t i = 0; i < padded.association.segments.size(); ++i) {
+      for (int n : padded.association.segments[i]) edges_at[n].insert(padded.association.segment_edge[i]);
+    }
     bool changed = false;
-    for (int f : faces) {
-      for (int e : model_.face(f).edges) {
-        if (options.edge_chains[e].empty() || bend(e) >= limit) continue;
-        options.edge_chains[e].clear();
-        changed = true;
+    for (const Hex& h : padded.mesh.hexes) {
+      if (scaled_jacobian(padded.mesh.points, h) > 0) continue;
+      for (int n : h) {
+        for (int e : edges_at[n]) {
+          if (options.edge_chains[e].empty() || bend(e) >= limit) continue;
+          options.edge_chains[e].clear();
+          changed = true;
+        }
       }
     }
     return changed;

@@ -1,0 +1,99 @@
+// The whole way over parts that the tests make: complete, valid, good, on the CAD, and the same every time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cad/cad.h"
+#include "core/error.h"
+#include "pipeline/label_part.h"
+#include "pipeline/pipeline.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+struct Part {
+  std::string name, brep;
+  double min_quality;
+};
+
+std::vector<Part> parts() {
+  return {{"box", shapes::box(10, 20, 30), 0.99},
+          {"cylinder", shapes::cylinder(5, 12), 0.5},
+          {"sphere", shapes::sphere(5), 0.4},
+          {"plate with hole", shapes::plate_with_hole(30, 20, 6, 4), 0.4},
+          {"L bracket", shapes::l_bracket(20, 5, 15), 0.9},
+          {"notched box", shapes::notched_box(10), 0.4},
+          {"chamfered box", shapes::chamfered_box(10, 2), 0.3},
+          {"half cylinder", shapes::half_cylinder(6, 10), 0.3},
+          {"turned L bracket", shapes::moved(shapes::l_bracket(20, 5, 15), 33, 100, -50, 7), 0.9}};
+}
+
+class Parts : public testing::TestWithParam<Part> {};
+
+TEST_P(Parts, AreMeshedCompletely) {
+  const CadModel model = CadModel::from_brep(GetParam().brep);
+  const MeshResult result = mesh(model, MeshOptions(), Monitor());
+  EXPECT_GE(result.report.quality.min_scaled_jacobian, GetParam().min_quality);
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_TRUE(result.association.lost_vertices.empty());
+  EXPECT_EQ(result.association.patches.size(), static_cast<std::size_t>(model.face_count()));
+  EXPECT_NEAR(result.report.volume / model.volume(), 1, 0.02);
+  for (std::size_t i = 0; i < result.mesh.points.size(); ++i) {
+    const CadRef at = result.association.point_cad[i];
+    const Vec3& p = result.mesh.points[i];
+    double off = 0;
+    if (at.dim == 0) off = (p - model.vertex(at.id)).norm();
+    if (at.dim == 1) off = model.project_to_edge(at.id, p).distance;
+    if (at.dim == 2) off = model.project_to_face(result.association.patches[at.id].front(), p).distance;
+    EXPECT_LE(off, 1e-9 * model.diagonal());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Made, Parts, testing::ValuesIn(parts()), [](const auto& part) {
+  std::string name = part.param.name;
+  std::erase(name, ' ');
+  return name;
+});
+
+TEST(Pipeline, TheSameMeshEveryTimeAndAtAnyThreadCount) {
+  const CadModel model = CadModel::from_brep(shapes::plate_with_hole(30, 20, 6, 4));
+  MeshOptions one, two;
+  one.threads = 1;
+  two.threads = 2;
+  const MeshResult a = mesh(model, one, Monitor()), b = mesh(model, two, Monitor());
+  EXPECT_EQ(a.mesh.hexes, b.mesh.hexes);
+  ASSERT_EQ(a.mesh.points.size(), b.mesh.points.size());
+  for (std::size_t i = 0; i < a.mesh.points.size(); ++i) EXPECT_EQ(a.mesh.points[i], b.mesh.points[i]);
+}
+
+TEST(Pipeline, CoarsestIsCoarser) {
+  const CadModel model = CadModel::from_brep(shapes::l_bracket(20, 5, 15));
+  MeshOptions coarsest;
+  coarsest.coarsest = true;
+  const MeshResult a = mesh(model, MeshOptions(), Monitor()), b = mesh(model, coarsest, Monitor());
+  EXPECT_EQ(b.report.hexes, 3);
+  EXPECT_GT(a.report.hexes, 100);
+}
+
+TEST(Pipeline, CancelAndBadOptionsEndIt) {
+  const CadModel model = CadModel::from_brep(shapes::box(1, 1, 1));
+  Monitor monitor;
+  monitor.cancel();
+  EXPECT_THROW(mesh(model, MeshOptions(), monitor), Cancelled);
+  MeshOptions options;
+  options.size = 50;
+  EXPECT_THROW(mesh(model, options, Monitor()), InvalidInput);
+}
+
+TEST(Labels, OfMadePartsAreValidAndMonotone) {
+  for (const Part& p : parts()) {
+    const LabelledPart labelled = label_part(CadModel::from_brep(p.brep), MeshOptions(), Monitor());
+    EXPECT_TRUE(labelled.label_report.valid()) << p.name;
+    EXPECT_EQ(labelled.label_report.turning_points, 0) << p.name;
+    EXPECT_EQ(labelled.flipped, 0) << p.name;
+  }
+}
+
+}  // namespace
+}  // namespace polycube

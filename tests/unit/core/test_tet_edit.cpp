@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "core/charts.h"
+#include "core/tet_edit.h"
+#include "support/tet_grid.h"
+
+namespace polycube {
+namespace {
+
+double volume(const TetMesh& m) {
+  double sum = 0;
+  for (const Tet& t : m.tets) {
+    const double v = (m.points[t[1]] - m.points[t[0]]).cross(m.points[t[2]] - m.points[t[0]]).dot(m.points[t[3]] - m.points[t[0]]) / 6;
+    EXPECT_GT(v, 0);
+    sum += v;
+  }
+  return sum;
+}
+
+TEST(TetEditor, SplitsKeepTheMeshConformingAndClassified) {
+  TetMesh mesh = tet_grid(2, 2, 2);
+  mesh.segments = {{0, 1}};
+  mesh.segment_edge = {7};
+  const double before = volume(mesh);
+  const std::size_t tets = mesh.tets.size(), triangles = mesh.triangles.size();
+  TetEditor editor(mesh);
+  const int on_edge = editor.split_edge(0, 1, (mesh.points[0] + mesh.points[1]) / 2);
+  EXPECT_EQ(mesh.point_cad[on_edge], (CadRef{1, 7}));
+  ASSERT_EQ(mesh.segments.size(), 2u);
+  EXPECT_EQ(mesh.segment_edge[1], 7);
+  EXPECT_EQ(mesh.triangles.size(), triangles + 2);
+  EXPECT_GT(mesh.tets.size(), tets);
+  // The same edge's half again, and an edge inside.
+  editor.split_edge(0, on_edge, (mesh.points[0] + mesh.points[on_edge]) / 2);
+  const int inside = editor.split_edge(0, 13, (mesh.points[0] + mesh.points[13]) / 2);
+  EXPECT_EQ(mesh.point_cad[inside], (CadRef{3, 1}));
+  EXPECT_NEAR(volume(mesh), before, 1e-12);
+  for (const auto& n : triangle_neighbours(mesh.triangles)) {
+    for (int t : n) EXPECT_GE(t, 0);
+  }
+  ASSERT_EQ(editor.triangle_parent().size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) EXPECT_EQ(mesh.triangle_face[t], mesh.triangle_face[editor.triangle_parent()[t]]);
+}
+
+TEST(TetEditor, TellsWhichPointsWouldInvert) {
+  TetMesh mesh = tet_grid(2, 2, 2);
+  const TetEditor editor(mesh);
+  EXPECT_TRUE(editor.keeps_volumes(0, 13, (mesh.points[0] + mesh.points[13]) / 2));
+  EXPECT_FALSE(editor.keeps_volumes(0, 13, mesh.points[13] + Vec3(5, 0, 0)));
+}
+
+}  // namespace
+}  // namespace polycube

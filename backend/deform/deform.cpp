@@ -102,6 +102,7 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
       const Mat3 j = jacobian(mesh.tets[t], elements[t], map.image);
       if (j.determinant() <= 0) {
         ++report->flipped;
+        report->flipped_tets.push_back(static_cast<int>(t));
       } else {
         report->worst_stretch = std::max(report->worst_stretch, Eigen::JacobiSVD<Mat3>(j).singularValues()[0]);
       }

@@ -13,6 +13,7 @@ struct DeformOptions {
 
 struct DeformReport {
   int flipped = 0;           ///< tets with non-positive volume in the image
+  std::vector<int> flipped_tets;  ///< ascending
   double worst_stretch = 0;  ///< largest singular value of the map's gradient over positive tets
 };
 

@@ -174,7 +174,7 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
   for (int outer = 0; outer < kOuter; ++outer) {
     const auto [least, flipped] = problem.worst(x);
     report.flipped = flipped;
-    if (outer > 0 && flipped == 0) break;
+    if (flipped == 0) break;
     // Above about a half the smoothing would make shrinking the good tets pay.
     const double epsilon = least > 0 ? 1e-3 : std::min(std::sqrt(1e-6 + 0.04 * least * least), 0.4);
     report.iterations += descend(problem, x, epsilon, kInner, monitor);

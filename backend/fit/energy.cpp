@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
-constexpr int kMemory = 8;              // pairs L-BFGS remembers
-constexpr double kLongestStep = 0.4;    // of the wanted edge length, a node and iteration
+constexpr int kMemory = 8;            // pairs L-BFGS remembers
+constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
 
 // Axis of each of the three edges of a corner, in the order of kCornerNeighbours.
 constexpr std::array<std::array<int, 3>, 8> corner_axes() {
@@ -182,7 +182,8 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       Vec3 sum = Vec3::Zero();
       for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
         const int at = slot_[graph_.corners[k] / 8];
-        if (at >= 0) sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
+        if (at >= 0)
+          sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
       }
       gradient[i] = entities_.along(v, sum);
     }

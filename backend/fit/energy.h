@@ -8,8 +8,8 @@ namespace polycube {
 
 /// Which hexes touch a node, and which lie side by side.
 struct HexGraph {
-  std::vector<int> first, corners;              ///< CSR over nodes: 8 * hex + corner, ascending
-  std::vector<std::array<int, 6>> neighbours;   ///< per hex and face: the hex beyond, -1 at the boundary
+  std::vector<int> first, corners;                      ///< CSR over nodes: 8 * hex + corner, ascending
+  std::vector<std::array<int, 6>> neighbours;           ///< per hex and face: the hex beyond, -1 at the boundary
   std::vector<std::array<std::array<int, 3>, 6>> axes;  ///< per hex and face: the neighbour's axis that goes with each of the hex's axes
 };
 
@@ -18,15 +18,16 @@ HexGraph build_hex_graph(const HexMesh& mesh);
 /// Wanted edge lengths of every hex along its three axes: those it has, smoothed over its neighbours, within a factor of 8 of each other.
 std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int smoothing_steps);
 
-/// What is minimised. With J the matrix of a corner's three edges over the wanted lengths, D = det J and chi(D) = (D + sqrt(eps^2 + D^2)) / 2:
+/// What is minimised. With J the matrix of a corner's three edges over the wanted lengths, D = det J and chi(D) = (D + sqrt(eps^2 + D^2)) /
+/// 2:
 ///   shape * ((tr(J^T J) / 3)^(3/2) / chi + (D^2 + 1) / (2 chi))  +  right * (|J_1| |J_2| |J_3| / chi)^power
-/// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the last term is
-/// a power of the inverse scaled Jacobian.
+/// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
+/// last term is a power of the inverse scaled Jacobian.
 struct Energy {
   double shape = 1;
   double right = 0;
   int power = 1;
-  double eps = 0;   ///< 0: a barrier, infinite where D <= 0
+  double eps = 0;  ///< 0: a barrier, infinite where D <= 0
 };
 
 struct Region {
@@ -40,7 +41,8 @@ struct DescentResult {
   int iterations = 0;
 };
 
-/// L-BFGS with nodes moving in the tangent spaces noted by `entities`; nodes leave their entities by the curvature, project them afterwards.
+/// L-BFGS with nodes moving in the tangent spaces noted by `entities`; nodes leave their entities by the curvature, project them
+/// afterwards.
 class Descent {
  public:
   Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor);
@@ -58,7 +60,7 @@ class Descent {
   const Entities& entities_;
   int threads_;
   const Monitor& monitor_;
-  std::vector<int> slot_;             // per hex: its place in the region, -1
+  std::vector<int> slot_;  // per hex: its place in the region, -1
   std::vector<double> corner_gradient_;
 };
 

@@ -58,17 +58,22 @@ double Entities::distance(int node, const Vec3& p) const {
   if (entity.dim == 0) return (model_.vertex(entity.id) - p).norm();
   if (entity.dim == 1) return model_.project_to_edge(entity.id, p).distance;
   double least = std::numeric_limits<double>::infinity();
-  for (int id : entity.dim == 2 ? association_.patches[entity.id] : std::vector<int>{}) least = std::min(least, model_.project_to_face(id, p).distance);
+  for (int id : entity.dim == 2 ? association_.patches[entity.id] : std::vector<int>{})
+    least = std::min(least, model_.project_to_face(id, p).distance);
   return entity.dim == 2 ? least : 0;
 }
 
 Vec3 Entities::along(int node, const Vec3& direction) const {
   const Vec3& f = frames_[node];
   switch (dimension(node)) {
-    case 0: return Vec3::Zero();
-    case 1: return f * f.dot(direction);
-    case 2: return direction - f * f.dot(direction);
-    default: return direction;
+    case 0:
+      return Vec3::Zero();
+    case 1:
+      return f * f.dot(direction);
+    case 2:
+      return direction - f * f.dot(direction);
+    default:
+      return direction;
   }
 }
 

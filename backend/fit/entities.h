@@ -11,14 +11,18 @@ class Entities {
  public:
   Entities(const CadModel& model, const Association& association, int threads);
 
-  /// Moves the listed nodes (all if null) to the nearest point of their entity and notes the tangent space there. Nodes of dimension 3 stay.
+  /// Moves the listed nodes (all if null) to the nearest point of their entity and notes the tangent space there. Nodes of dimension 3
+  /// stay.
   void project(std::vector<Vec3>& points, const std::vector<int>* nodes = nullptr);
   /// One node, from place p.
   Vec3 project(int node, const Vec3& p);
   /// How far p is from the node's entity, found without seed.
   double distance(int node, const Vec3& p) const;
   /// Tells the seed of an edge node before its first projection.
-  void set_edge_parameter(int node, double t) { seeds_[node] = Vec2(t, 0); seeded_[node] = 1; }
+  void set_edge_parameter(int node, double t) {
+    seeds_[node] = Vec2(t, 0);
+    seeded_[node] = 1;
+  }
 
   double edge_parameter(int node) const { return seeds_[node][0]; }
 
@@ -36,10 +40,10 @@ class Entities {
   const Association& association_;
   int threads_;
   std::vector<int> boundary_;
-  std::vector<Vec2> seeds_;     // (u, v) or (t, 0)
+  std::vector<Vec2> seeds_;  // (u, v) or (t, 0)
   std::vector<char> seeded_;
   std::vector<int> faces_;
-  std::vector<Vec3> frames_;    // unit normal of a face node, unit tangent of an edge node
+  std::vector<Vec3> frames_;  // unit normal of a face node, unit tangent of an edge node
 };
 
 }  // namespace polycube

@@ -31,8 +31,15 @@ struct Score {
 class Fitting {
  public:
   Fitting(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor)
-      : model_(model), mesh_(mesh), association_(association), options_(options), monitor_(monitor), graph_(build_hex_graph(mesh)),
-        chains_(model, association), entities_(model, association, options.threads), descent_(mesh, graph_, entities_, options.threads, monitor) {
+      : model_(model),
+        mesh_(mesh),
+        association_(association),
+        options_(options),
+        monitor_(monitor),
+        graph_(build_hex_graph(mesh)),
+        chains_(model, association),
+        entities_(model, association, options.threads),
+        descent_(mesh, graph_, entities_, options.threads, monitor) {
     whole_.hexes.resize(mesh.hexes.size());
     std::iota(whole_.hexes.begin(), whole_.hexes.end(), 0);
     whole_.nodes = movable(whole_.hexes);

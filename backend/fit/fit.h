@@ -10,19 +10,19 @@ namespace polycube {
 struct FitOptions {
   double target_scaled_jacobian = 0.3;  ///< work on worse cells goes on until this or no progress
   int max_rounds = 60;
-  int threads = 2;                      ///< the result does not depend on it
+  int threads = 2;  ///< the result does not depend on it
 };
 
 struct FitReport {
-  int inverted = 0;             ///< cells left with scaled Jacobian <= 0; the caller must not use the mesh unless 0
+  int inverted = 0;  ///< cells left with scaled Jacobian <= 0; the caller must not use the mesh unless 0
   double min_scaled_jacobian = 0;
   double mean_scaled_jacobian = 0;
-  double max_off = 0;           ///< mm, largest distance of a boundary node from its CAD entity
-  std::vector<int> bad_faces;   ///< CAD faces touched by cells left inverted
+  double max_off = 0;          ///< mm, largest distance of a boundary node from its CAD entity
+  std::vector<int> bad_faces;  ///< CAD faces touched by cells left inverted
 };
 
-/// Moves the nodes of `mesh`: nodes of {0, v} stand on the vertex, of {1, e} slide on the edge's curve, of {2, patch} on the patch's faces, the others
-/// are free. Connectivity stays. On return every boundary node is on its entity to 1e-9 of the model's diagonal.
+/// Moves the nodes of `mesh`: nodes of {0, v} stand on the vertex, of {1, e} slide on the edge's curve, of {2, patch} on the patch's faces,
+/// the others are free. Connectivity stays. On return every boundary node is on its entity to 1e-9 of the model's diagonal.
 FitReport fit(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor);
 
 }  // namespace polycube

@@ -90,7 +90,8 @@ std::vector<double> spread(const std::vector<double>& gaps, double from, double 
   double sum = 0;
   for (double g : gaps) sum += std::max(g, least);
   std::vector<double> lengths{from};
-  for (double g : gaps) lengths.push_back(lengths.back() + (sum > 0 ? std::max(g, least) / sum : 1.0 / static_cast<double>(gaps.size())) * (to - from));
+  for (double g : gaps)
+    lengths.push_back(lengths.back() + (sum > 0 ? std::max(g, least) / sum : 1.0 / static_cast<double>(gaps.size())) * (to - from));
   lengths.back() = to;
   return lengths;
 }
@@ -165,7 +166,8 @@ void place_chain(const CadModel& model, const NodeChain& chain, const ArcLength&
     const auto wrap = [&](double s) { return s < 0 ? s + arc.total() : s > arc.total() ? s - arc.total() : s; };
     const auto lengths = spread(gaps, from, to);
     double sum = 0;
-    for (int i = 0; i < count; ++i) sum += (model.edge_point(chain.edge, arc.parameter(wrap(lengths[i]))) - points[chain.nodes[i]]).squaredNorm();
+    for (int i = 0; i < count; ++i)
+      sum += (model.edge_point(chain.edge, arc.parameter(wrap(lengths[i]))) - points[chain.nodes[i]]).squaredNorm();
     if (least >= 0 && sum >= least) continue;
     least = sum;
     best = lengths;

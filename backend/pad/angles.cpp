@@ -72,7 +72,9 @@ double corner_angle(const CadModel& model, const HexMesh& mesh, const Associatio
 double angle_cost(int cells, double angle) {
   const double each = angle / cells, widest = 150 * kPi / 180;
   if (each >= widest) return 1000 * each / widest;
-  return 1 / std::sin(std::max(each, 0.01)) - 1;
+  // A sharp corner of the CAD must not be cut up further: its cells come near to folding over.
+  const double narrow = std::max(each, 0.01), needle = 20 * kPi / 180;
+  return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0);
 }
 
 std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,
@@ -86,7 +88,8 @@ std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, 
   return angles;
 }
 
-std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& wanted) {
+std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association,
+                                 const std::vector<char>& wanted) {
   // Corners of quads: node, neighbour where the corner begins, neighbour where it ends (counter-clockwise), quad.
   std::vector<std::array<int, 4>> corners;
   for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
@@ -113,7 +116,8 @@ std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, con
     while (j < corners.size() && corners[j][0] == corners[i][0]) ++j;
     const int node = corners[i][0];
     const auto beginning_at = [&](int neighbour) {
-      return std::find_if(corners.begin() + static_cast<long>(i), corners.begin() + static_cast<long>(j), [&](const auto& c) { return c[1] == neighbour; });
+      return std::find_if(corners.begin() + static_cast<long>(i), corners.begin() + static_cast<long>(j),
+                          [&](const auto& c) { return c[1] == neighbour; });
     };
     const auto none = corners.begin() + static_cast<long>(j);
     bool complete = true, has_edge = false;

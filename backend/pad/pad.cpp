@@ -38,8 +38,8 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
     if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);
     choice.gain = layers.gain + rings.gain;
     choice.report = {layers.quads, rings.sheets, static_cast<int>(choice.padded.mesh.hexes.size() - mesh.hexes.size())};
-    const bool known =
-        std::any_of(choices.begin(), choices.end(), [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
+    const bool known = std::any_of(choices.begin(), choices.end(),
+                                   [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
     if (!known) choices.push_back(std::move(choice));
     if (plan == LayerPlan::kEach && layers.regions == 0) break;  // nothing for the other plans to do
   }

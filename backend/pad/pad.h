@@ -13,18 +13,20 @@ struct PaddedMesh {
 };
 
 struct PadReport {
-  int surface_quads = 0;   ///< boundary quads that got a layer
-  int rings = 0;           ///< patches that got a ring of quads inside their border
+  int surface_quads = 0;  ///< boundary quads that got a layer
+  int rings = 0;          ///< patches that got a ring of quads inside their border
   int added_hexes = 0;
 };
 
-/// Several ways to pad, the most promising first, at least one: layers under whole smooth regions or pillows round the edges at fault. Which is best
-/// shows only in the fitted geometry. Each is as pad() describes.
+/// Several ways to pad, the most promising first, at least one: layers under whole smooth regions or pillows round the edges at fault.
+/// Which is best shows only in the fitted geometry. Each is as pad() describes.
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
                                     std::vector<PadReport>* reports = nullptr);
 
-/// The first of pad_choices. Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a cell inside); fit follows.
-PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report = nullptr);
+/// The first of pad_choices. Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a
+/// cell inside); fit follows.
+PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
+               PadReport* report = nullptr);
 
 /// Recomputes nothing: the list of what is wrong with the pair (non-manifold boundary, quads and point classes that contradict, ...).
 std::vector<std::string> check(const HexMesh& mesh, const Association& association);

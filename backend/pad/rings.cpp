@@ -12,7 +12,7 @@ namespace polycube {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBadSector = 0.9;       // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
+constexpr double kBadSector = 0.9;  // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
 constexpr double kLeastGain = 0.3;
 constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
 constexpr int kMaxSheets = 400;
@@ -25,8 +25,8 @@ struct Stretch {
 };
 
 struct Candidate {
-  std::set<int> inside;     // hexes
-  std::set<int> surface;    // quads
+  std::set<int> inside;   // hexes
+  std::set<int> surface;  // quads
   double gain = 0;
 };
 
@@ -176,7 +176,9 @@ Stretch trimmed(const Stretch& stretch) {
   }
   first = std::max(0, first - 2);
   last = std::min(count - 1, last + 2);
-  return {{stretch.nodes.begin() + first, stretch.nodes.begin() + last + 1}, false, {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
+  return {{stretch.nodes.begin() + first, stretch.nodes.begin() + last + 1},
+          false,
+          {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
 }
 
 // Quads of the patch along a stretch.

@@ -10,9 +10,9 @@ struct RingCount {
   double gain = 0;  ///< fall of the total angle cost, less prices
 };
 
-/// Where a CAD edge crosses the grid as a staircase, a corner of the stair has one quad on a straight border: no move of nodes makes that cell good.
-/// A sheet along the border, through the hexes under the patch, gives every node there two quads. Inserts such sheets one at a time, each the best
-/// of a few shapes by total angle_cost, as long as one gains.
+/// Where a CAD edge crosses the grid as a staircase, a corner of the stair has one quad on a straight border: no move of nodes makes that
+/// cell good. A sheet along the border, through the hexes under the patch, gives every node there two quads. Inserts such sheets one at a
+/// time, each the best of a few shapes by total angle_cost, as long as one gains.
 RingCount insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor);
 
 }  // namespace polycube

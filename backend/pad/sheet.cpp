@@ -14,10 +14,10 @@ namespace {
 // The copy of a node that one fan of inside hexes takes.
 struct Copy {
   int node = 0;
-  int fans = 0;                    // fans of cut faces at it; more than one cannot be opened
-  bool on_boundary = false;        // it has boundary quads
-  std::vector<int> patches;        // of these quads
-  std::vector<int> segments;       // moved segments that end at it
+  int fans = 0;               // fans of cut faces at it; more than one cannot be opened
+  bool on_boundary = false;   // it has boundary quads
+  std::vector<int> patches;   // of these quads
+  std::vector<int> segments;  // moved segments that end at it
   CadRef cad;
   bool obstacle = false;
 };
@@ -79,9 +79,9 @@ class Opening {
   std::vector<int> face_index_;   // per side, -1 if not cut
   std::vector<int> corner_copy_;  // per 8 * hex + corner: index into copies_, -1
   std::vector<Copy> copies_;
-  std::vector<End> ends_;         // per 4 * cut face + edge
+  std::vector<End> ends_;  // per 4 * cut face + edge
   std::vector<char> moved_segment_;
-  std::vector<int> segment_hex_;  // per moved segment: an inside hex on it
+  std::vector<int> segment_hex_;         // per moved segment: an inside hex on it
   std::vector<char> outer_on_boundary_;  // per node: the outer copy keeps boundary quads
 };
 

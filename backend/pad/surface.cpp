@@ -22,13 +22,14 @@ constexpr double kConcave = 215 * kPi / 180;
 constexpr double kBadEdge = 0.9;
 // Among layers that mend a region, the price of a quad.
 constexpr double kSmallPrice = 0.01;
-// What a padded quad must bring for a region to be looked at. A bore's four lines of three cells (60 degrees each) are not worth a layer; one line of one cell (180 degrees) is.
+// What a padded quad must bring for a region to be looked at. A bore's four lines of three cells (60 degrees each) are not worth a layer;
+// one line of one cell (180 degrees) is.
 constexpr double kQuadPrice = 0.15;
 
 struct Regions {
   std::vector<int> of_quad;
-  std::vector<double> own;     // cost of padding less cost of not padding, at edges inside the region
-  std::vector<int> patch;      // least patch: the region's name while sheets come and go
+  std::vector<double> own;  // cost of padding less cost of not padding, at edges inside the region
+  std::vector<int> patch;   // least patch: the region's name while sheets come and go
   int size() const { return static_cast<int>(own.size()); }
 };
 
@@ -97,8 +98,11 @@ struct Choice {
 class Chooser {
  public:
   explicit Chooser(const TrialMesh& whole)
-      : whole_(whole), mesh_(whole.padded.mesh), association_(whole.padded.association),
-        edges_(boundary_edges(mesh_, association_.quads, whole.topology)), angles_(dihedral_angles(whole.model, mesh_, association_, edges_)),
+      : whole_(whole),
+        mesh_(whole.padded.mesh),
+        association_(whole.padded.association),
+        edges_(boundary_edges(mesh_, association_.quads, whole.topology)),
+        angles_(dihedral_angles(whole.model, mesh_, association_, edges_)),
         regions_(find_regions(association_, edges_, angles_)) {}
 
   const Regions& regions() const { return regions_; }
@@ -372,7 +376,8 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
     const TrialMesh whole(model, padded);
     const Chooser chooser(whole);
     if (tried.empty()) {
-      count.regions = static_cast<int>(std::count_if(chooser.regions().own.begin(), chooser.regions().own.end(), [](double cost) { return cost < 0; }));
+      count.regions =
+          static_cast<int>(std::count_if(chooser.regions().own.begin(), chooser.regions().own.end(), [](double cost) { return cost < 0; }));
     }
     for (int r = 0; r < chooser.regions().size() && !again; ++r) {
       if (chooser.regions().own[r] >= 0 || !tried.insert(chooser.regions().patch[r]).second) continue;

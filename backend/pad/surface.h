@@ -19,12 +19,13 @@ struct LayerCount {
   double gain = 0;  ///< fall of the total angle cost, less prices
 };
 
-/// Finds smooth regions (quads joined across edges that a layer cannot end at) whose edges would be cheaper with a layer, and inserts layers. For a single
-/// region the best of: under it alone, going on through the solid from its concave edges; under it and all beyond its concave edges; under everything.
+/// Finds smooth regions (quads joined across edges that a layer cannot end at) whose edges would be cheaper with a layer, and inserts
+/// layers. For a single region the best of: under it alone, going on through the solid from its concave edges; under it and all beyond its
+/// concave edges; under everything.
 LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, LayerPlan plan, const Monitor& monitor);
 
-/// Carries a surface cut on from its concave edges straight through the solid (at an edge with four hexes through the face opposite) and says
-/// which hexes are inside. `region` flags boundary quads. False if the cut does not separate the mesh.
+/// Carries a surface cut on from its concave edges straight through the solid (at an edge with four hexes through the face opposite) and
+/// says which hexes are inside. `region` flags boundary quads. False if the cut does not separate the mesh.
 bool extend_cut(const HexMesh& mesh, const HexTopology& topology, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles,
                 const std::vector<char>& region, SheetCut& cut);
 

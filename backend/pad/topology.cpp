@@ -114,8 +114,9 @@ std::vector<BoundaryEdge> boundary_edges(const HexMesh& mesh, const std::vector<
 
 int find_edge(const std::vector<BoundaryEdge>& edges, int a, int b) {
   const std::array wanted{std::min(a, b), std::max(a, b)};
-  const auto it =
-      std::lower_bound(edges.begin(), edges.end(), wanted, [](const BoundaryEdge& e, const std::array<int, 2>& key) { return std::array{e.a, e.b} < key; });
+  const auto it = std::lower_bound(edges.begin(), edges.end(), wanted, [](const BoundaryEdge& e, const std::array<int, 2>& key) {
+    return std::array{e.a, e.b} < key;
+  });
   return it != edges.end() && it->a == wanted[0] && it->b == wanted[1] ? static_cast<int>(it - edges.begin()) : -1;
 }
 

@@ -7,11 +7,11 @@ namespace polycube {
 
 /// Faces of hexes are "sides": 6 * hex + face, faces as in core/hexahedron.h.
 struct HexTopology {
-  std::vector<int> mate;            ///< per side: the side on the other hex, or -1 - quad on the boundary (-1 - quads.size() if no quad is listed)
-  std::vector<int> quad_side;       ///< per boundary quad: its side, -1 if it is none
-  std::vector<int> node_first;      ///< CSR over nodes into node_hexes
-  std::vector<int> node_hexes;      ///< hexes round each node, ascending
-  std::vector<int> overfull;        ///< sides of faces shared by more than two hexes
+  std::vector<int> mate;  ///< per side: the side on the other hex, or -1 - quad on the boundary (-1 - quads.size() if no quad is listed)
+  std::vector<int> quad_side;   ///< per boundary quad: its side, -1 if it is none
+  std::vector<int> node_first;  ///< CSR over nodes into node_hexes
+  std::vector<int> node_hexes;  ///< hexes round each node, ascending
+  std::vector<int> overfull;    ///< sides of faces shared by more than two hexes
 };
 
 HexTopology build_topology(const HexMesh& mesh, const std::vector<Quad>& quads);
@@ -23,9 +23,9 @@ int other_face(const Hex& hex, int face, int a, int b);
 
 /// A boundary edge, the quads on its two sides and the hexes between them.
 struct BoundaryEdge {
-  int a, b;                       ///< nodes, a < b
-  std::array<int, 2> quads;       ///< boundary quads, ascending
-  int hexes;                      ///< number of hexes round it
+  int a, b;                  ///< nodes, a < b
+  std::array<int, 2> quads;  ///< boundary quads, ascending
+  int hexes;                 ///< number of hexes round it
 };
 
 /// The edges between two listed quads, sorted by (a, b).

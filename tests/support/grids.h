@@ -65,8 +65,8 @@ inline HexMesh grid_mesh(const std::array<int, 3>& size, const Occupied& occupie
   return mesh;
 }
 
-/// Classes by geometry: a boundary quad belongs to the face all its corners are on, chains run between quads of different faces, every CAD vertex
-/// takes the nearest node of a chain.
+/// Classes by geometry: a boundary quad belongs to the face all its corners are on, chains run between quads of different faces, every CAD
+/// vertex takes the nearest node of a chain.
 inline Association associate_by_geometry(const CadModel& model, const HexMesh& mesh) {
   Association a;
   std::map<std::array<int, 4>, std::pair<Quad, int>> faces;
@@ -153,7 +153,9 @@ inline Grid make_grid(const TopoDS_Shape& shape, const std::array<int, 3>& size,
   return make_grid(brep_of(shape), size, occupied, place);
 }
 
-inline bool everywhere(int, int, int) { return true; }
+inline bool everywhere(int, int, int) {
+  return true;
+}
 
 /// Box 3 x 2 x 1.
 inline Grid box_grid(int n = 4) {
@@ -163,9 +165,11 @@ inline Grid box_grid(int n = 4) {
 
 /// L of legs 2 and thickness 1.
 inline Grid l_grid(int n = 4) {
-  const TopoDS_Shape shape = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(2, 2, 1).Shape(), BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), gp_Pnt(3, 3, 3)).Shape()).Shape();
+  const TopoDS_Shape shape =
+      BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(2, 2, 1).Shape(), BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), gp_Pnt(3, 3, 3)).Shape()).Shape();
   const double h = 1.0 / n;
-  return make_grid(shape, {2 * n, 2 * n, n}, [=](int i, int j, int) { return i < n || j < n; }, [=](const Vec3& x) -> Vec3 { return h * x; });
+  return make_grid(
+      shape, {2 * n, 2 * n, n}, [=](int i, int j, int) { return i < n || j < n; }, [=](const Vec3& x) -> Vec3 { return h * x; });
 }
 
 // The square [-1, 1]^2 to the unit disk, radially.

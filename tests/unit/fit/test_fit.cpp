@@ -34,7 +34,9 @@ void shake(HexMesh& mesh, double size) {
   }
 }
 
-PaddedMesh padded(const Grid& grid) { return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{}); }
+PaddedMesh padded(const Grid& grid) {
+  return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{});
+}
 
 struct Case {
   const char* name;
@@ -61,14 +63,14 @@ TEST_P(FitShapes, UntanglesAShakenMeshOntoTheCad) {
   EXPECT_DOUBLE_EQ(summarise(p.mesh).min_scaled_jacobian, report.min_scaled_jacobian);
 }
 
-INSTANTIATE_TEST_SUITE_P(Grids, FitShapes,
-                         ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
-                                           Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97},
-                                           Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95},
-                                           Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9}, Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94},
-                                           Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
-                                           Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
-                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Grids, FitShapes,
+    ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
+                      Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97}, Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95},
+                      Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9}, Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94},
+                      Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
+                      Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
   const Grid grid = filleted_grid(12);

@@ -11,7 +11,8 @@ using namespace testing;
 
 double worst_sector(const CadModel& model, const HexMesh& mesh, const Association& a) {
   double worst = 0;
-  for (const Sector& s : find_sectors(model, mesh, a, std::vector<char>(mesh.points.size(), 1))) worst = std::max(worst, angle_cost(s.quads, s.angle));
+  for (const Sector& s : find_sectors(model, mesh, a, std::vector<char>(mesh.points.size(), 1)))
+    worst = std::max(worst, angle_cost(s.quads, s.angle));
   return worst;
 }
 

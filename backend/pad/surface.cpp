@@ -21,7 +21,7 @@ constexpr double kConcave = 215 * kPi / 180;
 // angle_cost from which an edge of a smooth region is at fault: cells of 148 degrees or more.
 constexpr double kBadEdge = 0.9;
 // Among layers that mend a region, the price of a quad.
-constexpr double kSmallPrice = 0.01;
+constexpr double kSmallPrice = 0.002;
 // What a padded quad must bring for a region to be looked at. A bore's four lines of three cells (60 degrees each) are not worth a layer;
 // one line of one cell (180 degrees) is.
 constexpr double kQuadPrice = 0.15;

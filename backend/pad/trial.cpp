@@ -10,7 +10,7 @@ namespace polycube {
 namespace {
 
 constexpr double kInnerWeight = 0.3;  // of edges inside, which have room to give way
-constexpr double kHexPrice = 0.01;
+constexpr double kHexPrice = 0.002;
 
 // A part of the mesh: all hexes that touch the nodes of a cut.
 struct Part {

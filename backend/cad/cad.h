@@ -53,6 +53,10 @@ class CadModel {
   static CadModel from_brep(const std::string& text);
   /// The shape as BREP text.
   std::string to_brep() const;
+  /// The solid with p -> scale * rotation * p + translation (rotation proper orthogonal, scale > 0), entities numbered and edges directed as here.
+  /// Every number of its geometry is rounded to a multiple of `grid` (0: left alone), far below OCCT's confusion of 1e-7 mm: solids that differ by
+  /// rounding only become the same to the last bit. Throws InvalidInput where the result is no valid solid or has other entities.
+  CadModel transformed(const Mat3& rotation, const Vec3& translation, double scale, double grid) const;
 
   int face_count() const;
   int edge_count() const;

@@ -6,6 +6,7 @@
 
 #include "core/charts.h"
 #include "core/error.h"
+#include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "tet/tet.h"
 
@@ -40,7 +41,7 @@ std::vector<Line> lines(const LabelledPart& part) {
 
 }  // namespace
 
-LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
+LabelledPart label_part(const CadModel& model, const MeshOptions& given, const Monitor& monitor) {
   LabelledPart part;
   auto start = Monitor::Clock::now();
   const auto book = [&](const std::string& name) {
@@ -48,24 +49,34 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& options, const
     part.stages.push_back({name, std::chrono::duration<double>(now - start).count()});
     start = now;
   };
-  const double size = effective_size(options, model.diagonal());
+  const Pose pose = canonical_pose(model);
+  const MeshOptions options = pose.posed(given);
+  const double size = effective_size(options, pose.model.diagonal());
   TetOptions tet;
-  tet.size = tet_size(size, model.diagonal());
-  part.tets = tetrahedralise(model, tet, monitor);
+  tet.size = tet_size(size, pose.model.diagonal());
+  part.tets = tetrahedralise(pose.model, tet, monitor);
   book("tet");
   LabelOptions label_options;
   label_options.fidelity = options.fidelity;
   label_options.compactness = options.compactness;
   label_options.face_labels = options.labels;
-  part.labelling = label(model, part.tets, label_options, monitor, &part.label_report);
-  part.features = find_features(model, part.tets, part.labelling, options.feature_angle * std::numbers::pi / 180, monitor);
+  label_options.frame_given = true;
+  label_options.frame = pose.frame;
+  part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
+  part.features = find_features(pose.model, part.tets, part.labelling, options.feature_angle * std::numbers::pi / 180, monitor);
   book("label");
   DeformOptions deform_options;
   deform_options.merge = 0.02 * size;
-  RealisedMap realised = realise(model, part.tets, part.labelling, part.features, deform_options, monitor);
+  RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
   part.map = std::move(realised.map);
   part.flipped = realised.report.flipped;
   book("deform");
+  for (Vec3& p : part.tets.points) p = pose.back(p);
+  part.labelling.frame = pose.user_frame;
+  for (int& l : part.labelling.label) l = pose.user_label(l);
+  for (FeatureChart& f : part.features.charts) pose.map_back(f.chart);
+  for (Vec3& p : part.map.image) p = pose.map_back(p);
+  for (Chart& c : part.map.charts) pose.map_back(c);
   return part;
 }
 

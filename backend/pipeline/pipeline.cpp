@@ -17,6 +17,7 @@
 #include "label/label.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
+#include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "quantize/quantize.h"
 #include "tet/tet.h"
@@ -64,13 +65,14 @@ class Run {
     return work();
   }
  public:
-  Run(const CadModel& model, const MeshOptions& options, const Monitor& monitor)
-      : model_(model), options_(options), monitor_(monitor), size_(effective_size(options, model.diagonal())) {
-    if (options.hexes > 0) size_ = std::cbrt(model.volume() / options.hexes);
+  /// Works in the pose; `options` are those of the pose too.
+  Run(const Pose& pose, const MeshOptions& options, const Monitor& monitor)
+      : pose_(pose), model_(pose.model), options_(options), monitor_(monitor), size_(effective_size(options, model_.diagonal())) {
+    if (options.hexes > 0) size_ = std::cbrt(model_.volume() / options.hexes);
     report_.version = POLYCUBE_VERSION;
     report_.options = options;
     report_.size = size_;
-    report_.cad_volume = model.volume();
+    report_.cad_volume = model_.volume();
   }
 
   MeshResult run() {
@@ -132,6 +134,8 @@ class Run {
     label_options.compactness = options_.compactness;
     label_options.strictness = c.strictness;
     label_options.face_labels = options_.labels;
+    label_options.frame_given = true;
+    label_options.frame = pose_.frame;
     const Labelling labelling = stage("label", [&] { return label(model_, tets, label_options, monitor_); });
     Features features = stage("label", [&] { return find_features(model_, tets, labelling, c.min_bend, monitor_); });
     if (!c.features) features.charts.clear();
@@ -285,6 +289,7 @@ class Run {
     for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
   }
 
+  const Pose& pose_;
   const CadModel& model_;
   const MeshOptions& options_;
   const Monitor& monitor_;
@@ -299,7 +304,21 @@ class Run {
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
   check(options, model.diagonal(), model.face_count());
-  return Run(model, options, monitor).run();
+  const Pose pose = canonical_pose(model);
+  const MeshOptions posed = pose.posed(options);
+  MeshResult result = Run(pose, posed, monitor).run();
+  restore(pose, model, result.association, result.mesh, monitor);
+  const QualitySummary quality = summarise(result.mesh);
+  if (!(quality.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells lose their volume on the way back to the part's place");
+  MeshReport& r = result.report;
+  r.options = options;
+  r.size /= pose.scale;
+  r.quality = quality;
+  r.volume = 0;
+  for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
+  r.cad_volume = model.volume();
+  r.worst = worst_cells(result.mesh, result.association);
+  return result;
 }
 
 }  // namespace polycube

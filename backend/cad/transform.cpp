@@ -1,0 +1,76 @@
+// The same solid elsewhere.
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepTools.hxx>
+#include <ShapeUpgrade_RemoveLocations.hxx>
+#include <Standard_Failure.hxx>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <gp_Trsf.hxx>
+
+#include "cad/shape.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+// Rounds the real numbers of a BREP text; whole numbers (counts, references) and words stay.
+std::string on_grid(const std::string& text, double grid) {
+  std::string result;
+  result.reserve(text.size());
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n\t\r", i), text.size());
+    const std::string token = text.substr(i, end - i);
+    char* stop = nullptr;
+    const double value = std::strtod(token.c_str(), &stop);
+    if (token.find_first_of(".e") != std::string::npos && stop == token.c_str() + token.size() && stop != token.c_str()) {
+      char number[32];
+      const double rounded = std::round(value / grid) * grid;
+      std::snprintf(number, sizeof number, "%.17g", rounded == 0 ? 0.0 : rounded);  // no negative zero
+      result += number;
+    } else {
+      result += token;
+    }
+    if (end < text.size()) result += text[end];
+    i = end + 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+CadModel CadModel::transformed(const Mat3& rotation, const Vec3& translation, double scale, double grid) const {
+  TopoDS_Shape shape;
+  try {
+    gp_Trsf motion;
+    const Mat3& r = rotation;
+    motion.SetValues(r(0, 0), r(0, 1), r(0, 2), translation[0], r(1, 0), r(1, 1), r(1, 2), translation[1], r(2, 0), r(2, 1), r(2, 2), translation[2]);
+    motion.SetScaleFactor(scale);
+    // A placement kept beside the geometry would bring back the digits that rounding is to remove.
+    ShapeUpgrade_RemoveLocations placed;
+    placed.SetRemoveLevel(TopAbs_SHAPE);
+    if (!placed.Remove(shape_->shape)) throw InvalidInput("OpenCASCADE cannot place the shape");
+    shape = BRepBuilderAPI_Transform(placed.GetResult(), motion, true).Shape();
+  } catch (const Standard_Failure& failure) {
+    throw InvalidInput("OpenCASCADE cannot move the shape: " + std::string(failure.GetMessageString()));
+  }
+  validate(shape);
+  CadModel moved(describe(shape));
+  if (grid > 0) moved = from_brep(on_grid(moved.to_brep(), grid));
+  // Entities must have kept their numbers and directions.
+  const double reach = 1e-5 * scale * diagonal();
+  const auto there = [&](const Vec3& p, const Vec3& q) { return (scale * (rotation * p) + translation - q).norm() <= reach; };
+  bool same = moved.vertex_count() == vertex_count() && moved.edge_count() == edge_count() && moved.face_count() == face_count();
+  for (int v = 1; same && v <= vertex_count(); ++v) same = there(vertex(v), moved.vertex(v));
+  for (int e = 1; same && e <= edge_count(); ++e) {
+    same = edge(e).vertices == moved.edge(e).vertices && edge(e).faces == moved.edge(e).faces;
+    const auto before = edge_samples(e, 3), after = moved.edge_samples(e, 3);
+    for (std::size_t i = 0; same && i < before.size(); ++i) same = there(before[i], after[i]);
+  }
+  for (int f = 1; same && f <= face_count(); ++f) same = face(f).edges == moved.face(f).edges;
+  if (!same) throw InvalidInput("OpenCASCADE renumbers the shape when it moves it");
+  return moved;
+}
+
+}  // namespace polycube

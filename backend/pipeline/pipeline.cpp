@@ -31,6 +31,8 @@ constexpr double kGoodScaledJacobian = 0.2;
 constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
 constexpr int kRelaxRounds = 3;
+// Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
+constexpr int kMaxFits = 12;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -182,7 +184,7 @@ class Run {
       monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                    std::to_string(association.lost_vertices.size()) + " vertices without mesh");
       FitReport fitted;
-      PaddedMesh padded = pad_and_fit(complex.mesh, association, fitted, report);
+      PaddedMesh padded = pad_and_fit(complex.mesh, association, round == 0, fitted, report);
       if (fitted.inverted == 0) {
         gate(padded);
         return padded;
@@ -215,14 +217,19 @@ class Run {
     return changed;
   }
 
-  PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, FitReport& fitted, MeshReport& report) {
+  PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, bool all_choices, FitReport& fitted, MeshReport& report) {
     std::vector<PadReport> pad_reports;
     std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, mesh, association, monitor_, &pad_reports); });
+    if (!all_choices) choices.resize(1);
     FitOptions fit_options;
     if (options_.threads > 0) fit_options.threads = options_.threads;
     // The first choice usually is the best; the others are fitted only where it falls short.
     std::size_t chosen = 0;
     for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (fits_left_-- <= 0) {
+        if (i > 0) break;
+        throw StageFailed("fit", "cells stay inverted after " + std::to_string(kMaxFits) + " attempts");
+      }
       const FitReport next = stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
       const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
       if (i == 0 || rank_of(next) > rank_of(fitted)) {
@@ -295,6 +302,7 @@ class Run {
   const Monitor& monitor_;
   double size_;
   TetMesh tets_;
+  int fits_left_ = kMaxFits;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "blocks/blocks.h"
 #include "core/error.h"
@@ -32,7 +34,9 @@ constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
 constexpr int kRelaxRounds = 3;
 // Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
-constexpr int kMaxFits = 12;
+constexpr int kMaxFits = 16;
+// Those kept back for the candidates that may give up edges, while there is no mesh at all.
+constexpr int kReservedFits = 8;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -42,14 +46,32 @@ struct Candidate {
   double strictness = 100;    // of LabelOptions
   double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path
   bool features = true;       // feature charts at all
+  double refine = 1;          // on the number of cells along an edge
+  bool give_up = false;       // may CAD edges be given up where cells stay inverted?
+};
+
+/// What the stages up to the blocks make of a candidate; shared by all that differ only afterwards.
+struct Structure {
+  TetMesh tets;
+  Features features;
+  PolycuboidMap map;
+  BlockComplex blocks;
+  std::optional<StageFailed> failure;
 };
 
 std::vector<Candidate> candidates(const MeshOptions& options) {
   const double smooth = options.feature_angle * std::numbers::pi / 180;
   const double sharp = std::max(smooth, std::numbers::pi / 18);
-  return {{"all CAD edges", 100, smooth, true},
-          {"all CAD edges, strict labels", 1000, smooth, true},
-          {"sharp CAD edges, no feature charts", 100, sharp, false}};
+  std::vector<Candidate> list{{"all CAD edges", 100, smooth, true, 1, false}, {"all CAD edges, strict labels", 1000, smooth, true, 1, false}};
+  if (!options.coarsest) {
+    // Whether a thin strip gets one cell or two can decide over the whole mesh.
+    list.push_back({"all CAD edges, finer", 100, smooth, true, 1.25, false});
+    list.push_back({"all CAD edges, coarser", 100, smooth, true, 0.85, false});
+  }
+  list.push_back({"all CAD edges but where cells stay inverted", 100, smooth, true, 1, true});
+  list.push_back({"all CAD edges but where cells stay inverted, strict labels", 1000, smooth, true, 1, true});
+  list.push_back({"sharp CAD edges, no feature charts", 100, sharp, false, 1, true});
+  return list;
 }
 
 class Run {
@@ -87,7 +109,9 @@ class Run {
     std::optional<StageFailed> failure;
     for (const Candidate& c : candidates(options_)) {
       try {
-        MeshResult result = attempt(c);
+        if (!c.give_up && fits_left_ <= kReservedFits) continue;
+        if (c.give_up && best) break;  // edges are given up only where nothing else came out
+        MeshResult result = attempt(c, !best && !failure);
         if (!best || rank(result) > rank(*best)) best = std::move(result);
         if (good_enough(*best)) break;
       } catch (const StageFailed& e) {
@@ -127,10 +151,23 @@ class Run {
     return {-static_cast<double>(r.association.lost_edges.size()) + 0.5 * (quality > 0.05), quality};
   }
 
-  MeshResult attempt(const Candidate& c) {
-    TetMesh tets = tets_;  // labelling cuts it
-    MeshResult result;
-    result.report = report_;
+  // Labels, map and blocks of a candidate; made once for all candidates that agree so far.
+  const Structure& structure(const Candidate& c) {
+    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features});
+    Structure& s = it->second;
+    if (fresh) {
+      try {
+        build(c, s);
+      } catch (const StageFailed& e) {
+        s.failure = e;
+      }
+    }
+    if (s.failure) throw *s.failure;
+    return s;
+  }
+
+  void build(const Candidate& c, Structure& s) {
+    s.tets = tets_;  // labelling cuts it
     LabelOptions label_options;
     label_options.fidelity = options_.fidelity;
     label_options.compactness = options_.compactness;
@@ -138,49 +175,57 @@ class Run {
     label_options.face_labels = options_.labels;
     label_options.frame_given = true;
     label_options.frame = pose_.frame;
-    const Labelling labelling = stage("label", [&] { return label(model_, tets, label_options, monitor_); });
-    Features features = stage("label", [&] { return find_features(model_, tets, labelling, c.min_bend, monitor_); });
-    if (!c.features) features.charts.clear();
+    const Labelling labelling = stage("label", [&] { return label(model_, s.tets, label_options, monitor_); });
+    s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, c.min_bend, monitor_); });
+    if (!c.features) s.features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};
-    for (const FeatureEdge& e : features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), bend(e.edge) < c.min_bend});
-    plan.push_back({static_cast<int>(features.charts.size())});
-    if (!tried_.insert(std::move(plan)).second) throw StageFailed("pipeline", "the same as one before");
+    for (const FeatureEdge& e : s.features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), bend(e.edge) < c.min_bend});
+    plan.push_back({static_cast<int>(s.features.charts.size())});
+    if (!tried_.insert(std::move(plan)).second) throw StageFailed("label", "the same as one before");
 
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size_;
-    const RealisedMap realised = stage("deform", [&] { return realise(model_, tets, labelling, features, deform_options, monitor_); });
-    const PolycuboidMap& map = realised.map;
-    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
-                 std::to_string(tets.tets.size()) + " tets");
-    const BlockComplex blocks = stage("blocks", [&] { return extract_blocks(tets, map, monitor_); });
+    RealisedMap realised = stage("deform", [&] { return realise(model_, s.tets, labelling, s.features, deform_options, monitor_); });
+    s.map = std::move(realised.map);
+    monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
+                 std::to_string(s.tets.tets.size()) + " tets");
+    s.blocks = stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
+  }
+
+  MeshResult attempt(const Candidate& c, bool first) {
+    const Structure& s = structure(c);
+    MeshResult result;
+    result.report = report_;
     QuantizeOptions quantize_options;
-    quantize_options.scale = options_.coarsest ? kCoarsest : 1 / size_;
-    const Quantization quantization = stage("quantize", [&] { return quantize(blocks, map, quantize_options, monitor_); });
-    HexComplex complex = stage("hex", [&] { return build_hexes(tets, map, blocks, quantization, monitor_); });
-    monitor_.log("hex: " + std::to_string(blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
+    quantize_options.scale = options_.coarsest ? kCoarsest : c.refine / size_;
+    const Quantization quantization = stage("quantize", [&] { return quantize(s.blocks, s.map, quantize_options, monitor_); });
+    HexComplex complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, quantization, monitor_); });
+    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
 
     AssociateOptions associate_options;
     associate_options.size = typical_edge(complex.mesh);
-    associate_options.edge_chains = edge_chains(model_, tets);
-    for (const FeatureEdge& e : features.edges) {
-      if (bend(e.edge) < c.min_bend && e.capture == EdgeCapture::kLost) associate_options.edge_chains[e.edge].clear();
-      if (e.capture == EdgeCapture::kLost && bend(e.edge) >= c.min_bend) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+    associate_options.edge_chains = edge_chains(model_, s.tets);
+    for (const FeatureEdge& e : s.features.edges) {
+      if (e.capture != EdgeCapture::kLost) continue;
+      if (bend(e.edge) < c.min_bend) associate_options.edge_chains[e.edge].clear();
+      if (bend(e.edge) >= c.min_bend && first) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
-    PaddedMesh padded = capture_and_fit(tets, map, complex, std::move(associate_options), result.report);
-    result.report.charts = static_cast<int>(map.charts.size());
-    result.report.blocks = static_cast<int>(blocks.blocks.size());
+    PaddedMesh padded = capture_and_fit(s, complex, std::move(associate_options), c.give_up ? kRelaxRounds : 0, result.report);
+    result.report.charts = static_cast<int>(s.map.charts.size());
+    result.report.blocks = static_cast<int>(s.blocks.blocks.size());
     result.report.quantization_objective = quantization.objective;
     result.report.quantization_bound = quantization.bound;
+    if (c.refine != 1) result.report.warnings.push_back(c.refine > 1 ? "the cells are finer than asked for" : "the cells are coarser than asked for");
     finish(result, std::move(padded));
     return result;
   }
 
   // Association, padding and fit. Where cells stay inverted the CAD edges of the faces there are given up, smooth ones first: a mesh that misses an
   // edge is worth more than none.
-  PaddedMesh capture_and_fit(const TetMesh& tets, const PolycuboidMap& map, const HexComplex& complex, AssociateOptions options, MeshReport& report) {
+  PaddedMesh capture_and_fit(const Structure& s, const HexComplex& complex, AssociateOptions options, int rounds, MeshReport& report) {
     for (int round = 0;; ++round) {
       const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-      const Association association = stage("pad", [&] { return associate(model_, tets, map.charts, boundary, options, monitor_); });
+      const Association association = stage("pad", [&] { return associate(model_, s.tets, s.map.charts, boundary, options, monitor_); });
       monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                    std::to_string(association.lost_vertices.size()) + " vertices without mesh");
       FitReport fitted;
@@ -189,7 +234,7 @@ class Run {
         gate(padded);
         return padded;
       }
-      const bool fewer = round < kRelaxRounds && (give_up(padded, kSmoothBend, options) || give_up(padded, std::numbers::pi, options));
+      const bool fewer = round < rounds && (give_up(padded, kSmoothBend, options) || give_up(padded, std::numbers::pi, options));
       if (fewer) continue;
       std::vector<CadRef> faces;
       for (int f : fitted.bad_faces) faces.push_back({2, f});
@@ -303,6 +348,7 @@ class Run {
   double size_;
   TetMesh tets_;
   int fits_left_ = kMaxFits;
+  std::map<std::tuple<double, double, bool>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };

@@ -30,7 +30,7 @@ std::string on_grid(const std::string& text, double grid) {
       std::snprintf(number, sizeof number, "%.17g", rounded == 0 ? 0.0 : rounded);  // no negative zero
       result += number;
     } else {
-      result += token;
+      result += token == "-0" ? "0" : token;
     }
     if (end < text.size()) result += text[end];
     i = end + 1;
@@ -49,8 +49,8 @@ CadModel CadModel::transformed(const Mat3& rotation, const Vec3& translation, do
     motion.SetScaleFactor(scale);
     // A placement kept beside the geometry would bring back the digits that rounding is to remove.
     ShapeUpgrade_RemoveLocations placed;
-    placed.SetRemoveLevel(TopAbs_SHAPE);
-    if (!placed.Remove(shape_->shape)) throw InvalidInput("OpenCASCADE cannot place the shape");
+    if (!placed.Remove(shape_->shape.Located(TopLoc_Location()))) throw InvalidInput("OpenCASCADE cannot place the shape");
+    motion.Multiply(shape_->shape.Location().Transformation());
     shape = BRepBuilderAPI_Transform(placed.GetResult(), motion, true).Shape();
   } catch (const Standard_Failure& failure) {
     throw InvalidInput("OpenCASCADE cannot move the shape: " + std::string(failure.GetMessageString()));

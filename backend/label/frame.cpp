@@ -77,11 +77,37 @@ Vec3 direction_across(const CadModel& model, const Vec3& axis) {
   return axis.unitOrthogonal();
 }
 
+// For a part without any direction of its own, as a sphere: from its first CAD vertex to the one furthest from it, which turns with the part.
+Mat3 frame_of_vertices(const CadModel& model) {
+  Vec3 a = Vec3::Zero();
+  for (int v = 2; v <= model.vertex_count(); ++v) {
+    const Vec3 arm = model.vertex(v) - model.vertex(1);
+    if (arm.norm() > a.norm() * (1 + 1e-6)) a = arm;
+  }
+  if (a.norm() < 1e-3 * model.diagonal()) return Mat3::Identity();
+  a.normalize();
+  Vec3 b = a.unitOrthogonal();
+  double furthest = 1e-3 * model.diagonal();
+  for (int e = 1; e <= model.edge_count(); ++e) {
+    for (const Vec3& p : model.edge_samples(e, 5)) {
+      const Vec3 arm = p - model.vertex(1), across = arm - arm.dot(a) * a;
+      if (across.norm() <= furthest * (1 + 1e-6)) continue;
+      furthest = across.norm();
+      b = across.normalized();
+    }
+  }
+  Mat3 frame;
+  frame.row(0) = a;
+  frame.row(1) = b;
+  frame.row(2) = a.cross(b);
+  return nearest_to_world(frame);
+}
+
 }  // namespace
 
 Mat3 find_frame(const CadModel& model) {
   const std::vector<Vote> votes = collect_votes(model);
-  if (votes.empty()) return Mat3::Identity();
+  if (votes.empty()) return frame_of_vertices(model);
   Mat3 best = Mat3::Identity();
   double best_score = -1;
   const std::size_t tried = std::min<std::size_t>(votes.size(), 24);

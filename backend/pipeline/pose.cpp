@@ -90,7 +90,8 @@ void Pose::map_back(Chart& chart) const {
 
 MeshOptions Pose::posed(const MeshOptions& options) const {
   MeshOptions result = options;
-  result.size *= scale;
+  // The same size in the pose has to be the same to the last bit too.
+  if (result.size > 0) result.size = nine_digits(result.size * scale);
   for (auto& [face, label] : result.labels) label = posed_label(label);
   return result;
 }

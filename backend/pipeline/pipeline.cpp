@@ -48,6 +48,7 @@ struct Candidate {
   bool features = true;       // feature charts at all
   double refine = 1;          // on the number of cells along an edge
   bool give_up = false;       // may CAD edges be given up where cells stay inverted?
+  double tet_size = 1;        // on the size of the tets
 };
 
 /// What the stages up to the blocks make of a candidate; shared by all that differ only afterwards.
@@ -66,8 +67,9 @@ std::vector<Candidate> candidates(const MeshOptions& options) {
   if (!options.coarsest) {
     // Whether a thin strip gets one cell or two can decide over the whole mesh.
     list.push_back({"all CAD edges, finer", 100, smooth, true, 1.25, false});
-    list.push_back({"all CAD edges, coarser", 100, smooth, true, 0.85, false});
   }
+  // Another tet mesh gives a slightly other map, and with it other strips.
+  list.push_back({"all CAD edges, other tets", 100, smooth, true, 1, false, 0.8});
   list.push_back({"all CAD edges but where cells stay inverted", 100, smooth, true, 1, true});
   list.push_back({"all CAD edges but where cells stay inverted, strict labels", 1000, smooth, true, 1, true});
   list.push_back({"sharp CAD edges, no feature charts", 100, sharp, false, 1, true});
@@ -100,11 +102,6 @@ class Run {
   }
 
   MeshResult run() {
-    TetOptions tet;
-    // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-    tet.size = std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 28);
-    tets_ = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
-    report_.tets = static_cast<int>(tets_.tets.size());
     std::optional<MeshResult> best;
     std::optional<StageFailed> failure;
     for (const Candidate& c : candidates(options_)) {
@@ -151,9 +148,20 @@ class Run {
     return {-static_cast<double>(r.association.lost_edges.size()) + 0.5 * (quality > 0.05), quality};
   }
 
+  const TetMesh& tets(double factor) {
+    const auto [it, fresh] = tets_.try_emplace(factor);
+    if (fresh) {
+      TetOptions tet;
+      // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
+      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 28);
+      it->second = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
+    }
+    return it->second;
+  }
+
   // Labels, map and blocks of a candidate; made once for all candidates that agree so far.
   const Structure& structure(const Candidate& c) {
-    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features});
+    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features, c.tet_size});
     Structure& s = it->second;
     if (fresh) {
       try {
@@ -167,7 +175,7 @@ class Run {
   }
 
   void build(const Candidate& c, Structure& s) {
-    s.tets = tets_;  // labelling cuts it
+    s.tets = tets(c.tet_size);  // labelling cuts it
     LabelOptions label_options;
     label_options.fidelity = options_.fidelity;
     label_options.compactness = options_.compactness;
@@ -215,6 +223,7 @@ class Run {
     result.report.blocks = static_cast<int>(s.blocks.blocks.size());
     result.report.quantization_objective = quantization.objective;
     result.report.quantization_bound = quantization.bound;
+    result.report.tets = static_cast<int>(s.tets.tets.size());
     if (c.refine != 1) result.report.warnings.push_back(c.refine > 1 ? "the cells are finer than asked for" : "the cells are coarser than asked for");
     finish(result, std::move(padded));
     return result;
@@ -346,9 +355,9 @@ class Run {
   const MeshOptions& options_;
   const Monitor& monitor_;
   double size_;
-  TetMesh tets_;
+  std::map<double, TetMesh> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
-  std::map<std::tuple<double, double, bool>, Structure> structures_;
+  std::map<std::tuple<double, double, bool, double>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };

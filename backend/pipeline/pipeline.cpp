@@ -32,11 +32,15 @@ constexpr double kGoodScaledJacobian = 0.2;
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
 constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
-constexpr int kRelaxRounds = 3;
+constexpr int kRelaxRounds = 5;
 // Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
 constexpr int kMaxFits = 16;
 // Those kept back for the candidates that may give up edges, while there is no mesh at all.
 constexpr int kReservedFits = 8;
+// A bend that no CAD edge reaches, radians.
+constexpr double kNoEdge = 4;
+// The last candidate may always try this often.
+constexpr int kLastFits = 3;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -72,7 +76,11 @@ std::vector<Candidate> candidates(const MeshOptions& options) {
   list.push_back({"all CAD edges, other tets", 100, smooth, true, 1, false, 0.8});
   list.push_back({"all CAD edges but where cells stay inverted", 100, smooth, true, 1, true});
   list.push_back({"all CAD edges but where cells stay inverted, strict labels", 1000, smooth, true, 1, true});
+  list.push_back({"all CAD edges but where cells stay inverted, other tets", 100, smooth, true, 1, true, 0.8});
   list.push_back({"sharp CAD edges, no feature charts", 100, sharp, false, 1, true});
+  // Better than nothing, for a look at volumes and modes: the surface alone.
+  list.push_back({"no CAD edges", 100, kNoEdge, false, 1, true});
+  list.push_back({"no CAD edges, other tets", 100, kNoEdge, false, 1, true, 0.8});
   return list;
 }
 
@@ -108,6 +116,7 @@ class Run {
       try {
         if (!c.give_up && fits_left_ <= kReservedFits) continue;
         if (c.give_up && best) break;  // edges are given up only where nothing else came out
+        if (c.min_bend == kNoEdge) fits_left_ = kLastFits;
         MeshResult result = attempt(c, !best && !failure);
         if (!best || rank(result) > rank(*best)) best = std::move(result);
         if (good_enough(*best)) break;

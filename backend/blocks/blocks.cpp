@@ -7,7 +7,7 @@
 
 #include "blocks/coarsen.h"
 #include "blocks/pieces.h"
-#include "blocks/union_find.h"
+#include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/union_find.h"
+#include "core/union_find.h"
 #include "core/error.h"
 
 namespace polycube {

@@ -4,7 +4,7 @@
 #include "blocks/clip.h"
 #include "blocks/sheets.h"
 #include "blocks/topology.h"
-#include "blocks/union_find.h"
+#include "core/union_find.h"
 
 namespace polycube {
 

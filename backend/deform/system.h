@@ -2,30 +2,13 @@
 #pragma once
 
 #include <Eigen/SparseCholesky>
-#include <numeric>
 
 #include "core/mesh.h"
+#include "core/union_find.h"
 
 namespace polycube {
 
 using Vector = Eigen::VectorXd;
-
-class UnionFind {
- public:
-  explicit UnionFind(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int find(int i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(int a, int b) {
-    a = find(a);
-    b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// Gradients of the four hat functions of a tet (columns, 1/mm) and its volume (mm^3).
 struct Element {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "blocks/union_find.h"
+#include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
 #include "hex/connectivity.h"

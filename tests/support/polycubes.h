@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "blocks/blocks.h"
-#include "blocks/union_find.h"
+#include "core/union_find.h"
 #include "core/charts.h"
 #include "core/hexahedron.h"
 

@@ -1,9 +1,11 @@
 #include "core/options.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <sstream>
 #include <string_view>
 
@@ -14,6 +16,8 @@ namespace {
 
 constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 constexpr double kSizesPerDiagonal = 30;
+// Degrees: axes typed with four digits are as square as this.
+constexpr double kSquare = 0.1;
 
 std::string flag(const std::string& name) {
   std::string text = "--" + name;
@@ -67,6 +71,42 @@ FaceLabels parse_labels(const OptionSpec& option, const std::string& text) {
   return labels;
 }
 
+FrameAxes parse_frame(const OptionSpec& option, const std::string& text) {
+  FrameAxes axes;
+  std::istringstream rows(text);
+  for (std::string row; std::getline(rows, row, '/');) {
+    Vec3 axis;
+    const char *at = row.data(), *last = row.data() + row.size();
+    for (int k = 0; k < 3; ++k) {
+      if (k > 0 && (at == last || *at++ != ',')) at = nullptr;
+      while (at && at != last && *at == ' ') ++at;
+      if (at && at != last && *at == '+') ++at;
+      const auto [end, error] = at ? std::from_chars(at, last, axis[k]) : std::from_chars_result{last, std::errc::invalid_argument};
+      at = error == std::errc() ? end : nullptr;
+      if (!at) break;
+    }
+    if (at != last) throw InvalidInput(flag(option.name) + ": '" + text + "' is not of the form 1,0,0/0,1,0 (the directions of X and Y)");
+    axes.push_back(axis);
+  }
+  return axes;
+}
+
+void check_frame(const OptionSpec& option, const FrameAxes& axes) {
+  if (axes.empty()) return;
+  const std::string start = flag(option.name) + ": ";
+  if (axes.size() != 2) throw InvalidInput(start + "two directions are needed, those of X and Y, not " + std::to_string(axes.size()));
+  for (const Vec3& axis : axes) {
+    if (!axis.allFinite()) throw InvalidInput(start + "a direction is not a number");
+    if (!(axis.stableNorm() > 0)) throw InvalidInput(start + "a direction has no length");
+  }
+  const double angle = std::acos(std::clamp(axes[0].stableNormalized().dot(axes[1].stableNormalized()), -1.0, 1.0)) * 180 / std::numbers::pi;
+  if (std::abs(angle - 90) > kSquare) {
+    char text[96];
+    std::snprintf(text, sizeof text, "X and Y must be at right angles, not %.4g degrees apart", angle);
+    throw InvalidInput(start + text);
+  }
+}
+
 const OptionSpec& find(const std::string& name) {
   for (const OptionSpec& option : option_table())
     if (option.name == name) return option;
@@ -85,6 +125,7 @@ void set(MeshOptions& options, const OptionSpec& option, const std::string& text
                  [&](bool MeshOptions::*m) { options.*m = parse_bool(option, text); },
                  [&](std::string MeshOptions::*m) { options.*m = text; },
                  [&](FaceLabels MeshOptions::*m) { options.*m = parse_labels(option, text); },
+                 [&](FrameAxes MeshOptions::*m) { options.*m = parse_frame(option, text); },
              },
              option.member);
 }
@@ -143,6 +184,10 @@ const std::vector<OptionSpec>& option_table() {
        .unit = "",
        .meaning = "Axes of CAD faces set by hand, such as Face3=+X,Face7=-Z.",
        .member = &MeshOptions::labels},
+      {.name = "frame",
+       .unit = "",
+       .meaning = "Directions of the labels' X and Y in the part's coordinates, such as 1,0,0/0,1,0. Default: found from the part.",
+       .member = &MeshOptions::frame},
       {.name = "feature_angle",
        .unit = "degrees",
        .meaning = "CAD edges that bend less than this need not be followed by mesh edges. 0: follow all.",
@@ -172,7 +217,7 @@ const std::vector<OptionSpec>& option_table() {
 }
 
 std::string option_type(const OptionSpec& option) {
-  static constexpr std::array<const char*, 5> kTypes{"double", "int", "bool", "string", "labels"};
+  static constexpr std::array<const char*, 6> kTypes{"double", "int", "bool", "string", "labels", "frame"};
   return kTypes[option.member.index()];
 }
 
@@ -200,6 +245,12 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option) {
                             text += (text.empty() ? "Face" : ",Face") + std::to_string(face) + "=" + kLabelNames.at(label);
                           return text;
                         },
+                        [&](FrameAxes MeshOptions::*m) {
+                          std::string text;
+                          for (const Vec3& axis : options.*m)
+                            text += (text.empty() ? "" : "/") + number_text(axis[0]) + "," + number_text(axis[1]) + "," + number_text(axis[2]);
+                          return text;
+                        },
                     },
                     option.member);
 }
@@ -208,6 +259,7 @@ void check(const MeshOptions& options) {
   for (const OptionSpec& option : option_table()) {
     if (const auto* m = std::get_if<double MeshOptions::*>(&option.member)) check_bounds(option, options.*(*m));
     if (const auto* m = std::get_if<int MeshOptions::*>(&option.member)) check_bounds(option, options.*(*m));
+    if (const auto* m = std::get_if<FrameAxes MeshOptions::*>(&option.member)) check_frame(option, options.*(*m));
     if (const auto* m = std::get_if<std::string MeshOptions::*>(&option.member)) {
       const std::string& word = options.*(*m);
       if (word.empty() || std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end()) continue;
@@ -234,6 +286,17 @@ void check(const MeshOptions& options, double diagonal, int face_count) {
     if (face > face_count)
       throw InvalidInput("--labels: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
   }
+}
+
+const char* label_name(int label) { return kLabelNames.at(label); }
+
+Mat3 frame_of(const FrameAxes& axes) {
+  Mat3 frame;
+  frame.row(0) = axes.at(0).stableNormalized();
+  const Vec3 x = frame.row(0), y = axes.at(1).stableNormalized();
+  frame.row(1) = (y - y.dot(x) * x).normalized();
+  frame.row(2) = frame.row(0).cross(frame.row(1));
+  return frame;
 }
 
 double effective_size(const MeshOptions& options, double diagonal) { return options.size > 0 ? options.size : diagonal / kSizesPerDiagonal; }

@@ -6,10 +6,15 @@
 #include <variant>
 #include <vector>
 
+#include "core/types.h"
+
 namespace polycube {
 
 /// (CAD face, label 0..5 = +X -X +Y -Y +Z -Z).
 using FaceLabels = std::vector<std::pair<int, int>>;
+
+/// Directions of the labels' X and Y in the part's coordinates, of any length; empty: the frame is found from the part.
+using FrameAxes = std::vector<Vec3>;
 
 /// What a user can ask of a mesh. Meaning, unit and bounds of each member: option_table().
 struct MeshOptions {
@@ -22,13 +27,15 @@ struct MeshOptions {
   double feature_angle = 0;
   int threads = 0;
   FaceLabels labels;
+  FrameAxes frame;
   double fidelity = 3;
   double compactness = 1;
 };
 
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
-  using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*>;
+  using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
+                              FrameAxes MeshOptions::*>;
   std::string name;
   std::string unit;                  ///< "mm", "s", "degrees" or empty
   std::string meaning;               ///< one sentence
@@ -41,10 +48,11 @@ struct OptionSpec {
 
 const std::vector<OptionSpec>& option_table();
 
-/// "double", "int", "bool", "string" or "labels".
+/// "double", "int", "bool", "string", "labels" or "frame".
 std::string option_type(const OptionSpec& option);
 
-/// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"), checked.
+/// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"),
+/// ("frame", "1,0,0/0,1,0"), checked.
 /// An element type given without an order brings its own order. Throws InvalidInput naming the option.
 MeshOptions parse_options(const std::vector<std::pair<std::string, std::string>>& given);
 
@@ -52,11 +60,18 @@ MeshOptions parse_options(const std::vector<std::pair<std::string, std::string>>
 std::string option_text(const MeshOptions& options, const OptionSpec& option);
 
 /// Throws InvalidInput, one line naming the option: not a number, out of bounds, not a choice, two ways of giving the size at once,
-/// an element type that contradicts the order.
+/// an element type that contradicts the order,
+/// a frame whose axes are no directions or not at right angles.
 void check(const MeshOptions& options);
 
 /// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label names a face it does not have.
 void check(const MeshOptions& options, double diagonal, int face_count);
+
+/// "+X", "-X", ... of a label 0..5.
+const char* label_name(int label);
+
+/// The right-handed orthonormal frame (rows: the axes) of checked, not empty FrameAxes. Y is made exactly square to X.
+Mat3 frame_of(const FrameAxes& axes);
 
 /// Edge length in force, mm: `size`, or diagonal / 30 where it is 0.
 double effective_size(const MeshOptions& options, double diagonal);

@@ -17,7 +17,7 @@ Json options_json(const MeshOptions& options) {
   for (const OptionSpec& option : option_table()) {
     std::visit(
         [&](auto member) {
-          if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*>) {
+          if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*> || std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
             json[option.name] = option_text(options, option);
           } else {
             json[option.name] = options.*member;

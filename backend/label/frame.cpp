@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/charts.h"
+#include "core/error.h"
+
 namespace polycube {
 namespace {
+
+// Cosines of 85 and 100 degrees.
+constexpr double kTowards = 0.087, kAgainst = -0.174;
 
 struct Vote {
   Vec3 direction;
@@ -103,7 +109,45 @@ Mat3 frame_of_vertices(const CadModel& model) {
   return nearest_to_world(frame);
 }
 
+/// Least and largest cosine between a face's normals and the six labels.
+struct Spread {
+  std::array<double, 6> least, most;
+  bool towards(int label) const { return most[label] > kTowards; }
+  bool possible(int label) const { return towards(label) && least[label] > kAgainst; }
+};
+
+Spread spread_of(const TetMesh& mesh, const Mat3& to_frame, int face) {
+  Spread spread;
+  spread.least.fill(1);
+  spread.most.fill(-1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_face[t] != face) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 n = to_frame * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).normalized();
+    for (int label = 0; label < 6; ++label) {
+      const double cosine = label_sign(label) * n[label_axis(label)];
+      spread.least[label] = std::min(spread.least[label], cosine);
+      spread.most[label] = std::max(spread.most[label], cosine);
+    }
+  }
+  return spread;
+}
+
 }  // namespace
+
+void check_labels(const TetMesh& mesh, const Mat3& to_frame, const FaceLabels& labels) {
+  for (const auto& [face, label] : labels) {
+    const Spread spread = spread_of(mesh, to_frame, face);
+    if (spread.possible(label)) continue;
+    std::string can;
+    for (int l = 0; l < 6; ++l) {
+      if (spread.possible(l)) can += (can.empty() ? "it can be " : " or ") + std::string(label_name(l));
+    }
+    const std::string wanted = label_name(label);
+    throw InvalidInput("--labels: " + name({2, face}) + " cannot be " + wanted + (spread.towards(label) ? " all over, it turns against it" : ", it does not face that way") +
+                       "; " + (can.empty() ? "it turns too far for any one label" : can));
+  }
+}
 
 Mat3 find_frame(const CadModel& model) {
   const std::vector<Vote> votes = collect_votes(model);

@@ -49,12 +49,13 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
     part.stages.push_back({name, std::chrono::duration<double>(now - start).count()});
     start = now;
   };
-  const Pose pose = canonical_pose(model);
+  const Pose pose = canonical_pose(model, given.frame);
   const MeshOptions options = pose.posed(given);
   const double size = effective_size(options, pose.model.diagonal());
   TetOptions tet;
   tet.size = tet_size(size, pose.model.diagonal());
   part.tets = tetrahedralise(pose.model, tet, monitor);
+  pose.check_labels(part.tets, options.labels);
   book("tet");
   LabelOptions label_options;
   label_options.fidelity = options.fidelity;

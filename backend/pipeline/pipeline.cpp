@@ -185,6 +185,7 @@ class Run {
 
   void build(const Candidate& c, Structure& s) {
     s.tets = tets(c.tet_size);  // labelling cuts it
+    pose_.check_labels(s.tets, options_.labels);
     LabelOptions label_options;
     label_options.fidelity = options_.fidelity;
     label_options.compactness = options_.compactness;
@@ -376,7 +377,7 @@ class Run {
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
   check(options, model.diagonal(), model.face_count());
-  const Pose pose = canonical_pose(model);
+  const Pose pose = canonical_pose(model, options.frame);
   const MeshOptions posed = pose.posed(options);
   MeshResult result = Run(pose, posed, monitor).run();
   restore(pose, model, result.association, result.mesh, monitor);

@@ -88,17 +88,24 @@ void Pose::map_back(Chart& chart) const {
   chart.axis = axis[chart.axis];
 }
 
+void Pose::check_labels(const TetMesh& mesh, const FaceLabels& labels) const {
+  FaceLabels user = labels;
+  for (auto& [face, label] : user) label = user_label(label);
+  polycube::check_labels(mesh, user_frame * rotation.transpose(), user);
+}
+
 MeshOptions Pose::posed(const MeshOptions& options) const {
   MeshOptions result = options;
   // The same size in the pose has to be the same to the last bit too.
   if (result.size > 0) result.size = nine_digits(result.size * scale);
   for (auto& [face, label] : result.labels) label = posed_label(label);
+  result.frame.clear();
   return result;
 }
 
-Pose canonical_pose(const CadModel& model) {
+Pose canonical_pose(const CadModel& model, const FrameAxes& axes) {
   Pose pose{model};
-  pose.user_frame = find_frame(model);
+  pose.user_frame = axes.empty() ? find_frame(model) : frame_of(axes);
   pose.frame = pose.user_frame;
   const std::vector<Vec3> points = points_of(model);
   if (points.empty()) return pose;

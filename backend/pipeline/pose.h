@@ -16,7 +16,7 @@ struct Pose {
   Vec3 translation = Vec3::Zero();
   double scale = 1;
   Mat3 frame = Mat3::Identity();        ///< of the labels, in the pose
-  Mat3 user_frame = Mat3::Identity();   ///< of the labels as the user sees them (find_frame), in the part as given
+  Mat3 user_frame = Mat3::Identity();   ///< of the labels as the user sees them (given, or find_frame), in the part as given
   std::array<int, 3> axis{0, 1, 2};     ///< per axis of `frame`: the user's axis along it
   std::array<int, 3> sign{1, 1, 1};     ///< +1: the same way, -1: against it
 
@@ -26,14 +26,16 @@ struct Pose {
   /// Coordinates of the map, and values of charts on `posed_axis`: from the pose to the part as given, in the user's axes.
   double map_back(int posed_axis, double value) const;
   Vec3 map_back(const Vec3& image) const;
+  /// Throws InvalidInput, in the user's axes, where a face cannot have its label; mesh and labels are those of the pose.
+  void check_labels(const TetMesh& mesh, const FaceLabels& labels) const;
   /// The chart's axis, sign and value in the user's axes.
   void map_back(Chart& chart) const;
-  /// Lengths and labels in the pose.
+  /// Lengths and labels in the pose, whose own frame is the one.
   MeshOptions posed(const MeshOptions& options) const;
 };
 
-/// Where OCCT cannot pose the part, it is left as it is.
-Pose canonical_pose(const CadModel& model);
+/// Where OCCT cannot pose the part, it is left as it is. `axes` as in MeshOptions::frame.
+Pose canonical_pose(const CadModel& model, const FrameAxes& axes = {});
 
 /// Takes a mesh of the pose to the part as given: every boundary node exactly on its vertex, edge or nearest face of its patch there.
 /// Throws StageFailed when an entity is not where the pose says.

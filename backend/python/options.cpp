@@ -13,6 +13,18 @@ std::string labels_text(const py::dict& labels) {
   return text;
 }
 
+/// Two directions, as sequences of three numbers each.
+std::string frame_text(const py::handle& axes) {
+  std::string text;
+  for (const py::handle axis : axes) {
+    std::string row;
+    if (!py::isinstance<py::iterable>(axis)) return py::str(axes);
+    for (const py::handle number : axis) row += (row.empty() ? "" : ",") + std::string(py::str(py::float_(py::reinterpret_borrow<py::object>(number))));
+    text += (text.empty() ? "" : "/") + row;
+  }
+  return text;
+}
+
 py::dict describe(const OptionSpec& option) {
   const MeshOptions defaults;
   py::dict entry;
@@ -24,6 +36,8 @@ py::dict describe(const OptionSpec& option) {
       [&](auto member) {
         if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*>) {
           entry["default"] = py::dict();
+        } else if constexpr (std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
+          entry["default"] = py::list();
         } else {
           entry["default"] = defaults.*member;
         }
@@ -45,7 +59,9 @@ MeshOptions options_from(const py::kwargs& given) {
   for (const auto& [key, value] : given) {
     if (value.is_none()) continue;
     const std::string name = py::str(key);
-    if (!py::isinstance<py::dict>(value)) {
+    if (name == "frame" && py::isinstance<py::iterable>(value) && !py::isinstance<py::str>(value)) {
+      if (const std::string text = frame_text(value); !text.empty()) texts.emplace_back(name, text);
+    } else if (!py::isinstance<py::dict>(value)) {
       texts.emplace_back(name, py::str(value));
     } else if (const std::string text = labels_text(py::reinterpret_borrow<py::dict>(value)); !text.empty()) {
       texts.emplace_back(name, text);

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include "core/error.h"
 #include "core/options.h"
 
@@ -71,6 +73,33 @@ TEST(Options, RefusesOthers) {
   EXPECT_THAT(complaint({{"colour", "red"}}), HasSubstr("colour"));
   for (const char* bad : {"Face=+X", "Face1", "Face0=+X", "Edge1=+X", "Face1=X", "Face1=+X,Face1=-X", "Face1x=+X"})
     EXPECT_THAT(complaint({{"labels", bad}}), HasSubstr("--labels")) << bad;
+}
+
+TEST(Options, FrameIsReadNormalisedAndSquared) {
+  const MeshOptions o = parse_options({{"frame", "2,0,0/0.001,-5,0"}});
+  ASSERT_EQ(o.frame.size(), 2u);
+  const Mat3 frame = frame_of(o.frame);
+  EXPECT_LT((frame * frame.transpose() - Mat3::Identity()).norm(), 1e-15);
+  EXPECT_NEAR(frame.determinant(), 1, 1e-15);
+  EXPECT_EQ(Vec3(frame.row(0)), Vec3(1, 0, 0));
+  EXPECT_EQ(Vec3(frame.row(1)), Vec3(0, -1, 0));
+  for (const OptionSpec& option : option_table()) {
+    if (option.name == "frame") {
+      EXPECT_EQ(option_text(o, option), "2,0,0/0.001,-5,0");
+    }
+  }
+  EXPECT_TRUE(parse_options({{"frame", ""}}).frame.empty());
+  EXPECT_EQ(parse_options({{"frame", "1, 0, -1e200/0,+1,0"}}).frame[0][2], -1e200);
+}
+
+TEST(Options, RefusesBadFramesInOneLine) {
+  for (const char* bad : {"1,0,0", "1,0,0/0,1,0/0,0,1", "1,0/0,1,0", "1,0,0,0/0,1,0", "1,0,0;0,1,0", "0,0,0/0,1,0", "1,0,0/2,0,0", "1,0,0/1,1,0", "a,b,c/0,1,0",
+                          "1,0,nan/0,1,0", "1,0,inf/0,1,0", "1,,0/0,1,0", "/", "X"}) {
+    const std::string text = complaint({{"frame", bad}});
+    EXPECT_THAT(text, HasSubstr("--frame: ")) << bad;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+  EXPECT_THAT(complaint({{"frame", "1,0,0/1,1,0"}}), HasSubstr("not 45 degrees apart"));
 }
 
 TEST(Options, AgainstThePart) {

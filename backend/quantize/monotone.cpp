@@ -15,6 +15,28 @@ struct Sources {
   std::array<int, 2> vertex{-1, -1};
 };
 
+/// Indices sorted by key (from 0, below `keys`), equal ones in their order: linear, unlike a sort.
+std::vector<int> order_by(const std::vector<int>& key, int keys) {
+  std::vector<int> first(static_cast<std::size_t>(keys) + 1, 0), order(key.size());
+  for (int k : key) ++first[k + 1];
+  for (int k = 0; k < keys; ++k) first[k + 1] += first[k];
+  for (int i = 0; i < static_cast<int>(key.size()); ++i) order[first[key[i]]++] = i;
+  return order;
+}
+
+/// Without repetitions; a vertex has few edges, so all is sorted by their lower end first.
+std::vector<MonotonePaths::Edge> distinct(const std::vector<MonotonePaths::Edge>& all, int vertices) {
+  std::vector<int> from(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) from[e] = all[e].from;
+  std::vector<MonotonePaths::Edge> edges;
+  std::size_t begin = 0;  // of the edges of the present vertex
+  for (int e : order_by(from, vertices)) {
+    if (begin < edges.size() && edges[begin].from != all[e].from) begin = edges.size();
+    if (std::find(edges.begin() + static_cast<std::ptrdiff_t>(begin), edges.end(), all[e]) == edges.end()) edges.push_back(all[e]);
+  }
+  return edges;
+}
+
 }  // namespace
 
 MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& map, const QuantizeProblem& problem, bool features) {
@@ -23,6 +45,9 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
   for (int v = 0; v < complex.vertex_count; ++v) {
     for (int d = 0; d < 3; ++d) unknown_[v][d] = problem.number[complex.vertex_charts[v][d]];
   }
+  // Of a side inside, the block behind it has the edges as well: those of its far sides and of the boundary are enough.
+  std::vector<Edge> all;
+  all.reserve(12 * complex.blocks.size());
   for (const Block& block : complex.blocks) {
     for (int side = 0; side < 6; ++side) {
       if (block.neighbours[side] >= 0) continue;
@@ -31,21 +56,24 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
     for (const auto& [i, j] : kHexEdges) {
       int axis = 0;
       while (kCornerCoordinates[i][axis] == kCornerCoordinates[j][axis]) ++axis;
+      bool behind = false;
+      for (int d = 0; d < 3; ++d) behind |= d != axis && kCornerCoordinates[i][d] == 0 && block.neighbours[2 * d] >= 0;
+      if (behind) continue;
       const bool forward = kCornerCoordinates[i][axis] == 0;
-      edges_.push_back({axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]], block.corners[forward ? i : j],
-                        block.corners[forward ? j : i]});
+      all.push_back({axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]], block.corners[forward ? i : j],
+                     block.corners[forward ? j : i]});
     }
   }
+  edges_ = distinct(all, complex.vertex_count);
   if (features) {
     for (std::size_t c = 0; c < complex.feature_vertices.size(); ++c) {
       for (int v : complex.feature_vertices[c]) on_chart_[v] |= static_cast<char>(1 << map.charts[c].axis);
     }
   }
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 
   // Positions by rank of the chart's value: every edge goes up by at least one.
   std::array<std::vector<int>, 3> rank;
+  int ranks = 0;
   for (int d = 0; d < 3; ++d) {
     const auto& charts = problem.axes[d].charts;
     std::vector<double> values;
@@ -54,17 +82,16 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
     for (int c : charts) {
       rank[d].push_back(static_cast<int>(std::lower_bound(values.begin(), values.end(), map.charts[c].value) - values.begin()));
     }
+    ranks += static_cast<int>(charts.size());
   }
+  std::vector<int> key(edges_.size());
   for (std::size_t o = 0; o < kOctants.size(); ++o) {
-    std::vector<std::pair<int, int>> keyed(edges_.size());
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       const int from = kOctants[o][edges_[e].axis] > 0 ? edges_[e].from : edges_[e].to;
-      int key = 0;
-      for (int d = 0; d < 3; ++d) key += kOctants[o][d] * rank[d][unknown_[from][d]];
-      keyed[e] = {key, static_cast<int>(e)};
+      key[e] = ranks;
+      for (int d = 0; d < 3; ++d) key[e] += kOctants[o][d] * rank[d][unknown_[from][d]];
     }
-    std::sort(keyed.begin(), keyed.end());
-    for (const auto& [key, e] : keyed) order_[o].push_back(e);
+    order_[o] = order_by(key, 2 * ranks + 1);
   }
 }
 
@@ -91,9 +118,9 @@ std::vector<Cut2> MonotonePaths::violations(const std::array<const std::vector<i
       for (int d = 0; d < 3; ++d) {
         const int a = unknown_[from][d], b = unknown_[to][d];
         if (a == b) continue;
-        cut.alternatives.push_back(kOctants[o][d] > 0 ? Cut2::Alternative{d, a, b} : Cut2::Alternative{d, b, a});
+        cut.alternatives[cut.count++] = kOctants[o][d] > 0 ? Cut2::Alternative{d, a, b} : Cut2::Alternative{d, b, a};
       }
-      found.push_back(std::move(cut));
+      found.push_back(cut);
     };
     for (int e : order_[o]) {
       if (!zero[e]) continue;

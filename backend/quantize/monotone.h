@@ -5,13 +5,16 @@
 
 namespace polycube {
 
-/// One of these differences must be at least 1. Numbers of unknowns; at most one alternative per axis.
+/// One of these differences must be at least 1. Numbers of unknowns; at most one alternative per axis, by axis.
 struct Cut2 {
   struct Alternative {
     int axis, low, high;
     friend auto operator<=>(const Alternative&, const Alternative&) = default;
   };
-  std::vector<Alternative> alternatives;
+  int count = 0;
+  std::array<Alternative, 3> alternatives{};
+  const Alternative* begin() const { return alternatives.data(); }
+  const Alternative* end() const { return alternatives.data() + count; }
   friend auto operator<=>(const Cut2&, const Cut2&) = default;
 };
 

@@ -52,7 +52,8 @@ QuantizeProblem build_problem(const BlockComplex& complex, const PolycuboidMap& 
     }
   }
   for (const auto& [d, low, high] : opposite_charts(complex)) {
-    problem.axes[d].differences.push_back({problem.number[low], problem.number[high], options.min_layers});
+    problem.axes[d].differences.push_back({problem.number[low], problem.number[high], options.min_layers,
+                                           options.min_layers > 1 ? Difference::kLayers : Difference::kNone});
   }
   for (int i = 0; i < static_cast<int>(options.constraints.size()); ++i) {
     const DistanceConstraint& c = options.constraints[i];

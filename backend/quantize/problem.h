@@ -15,7 +15,8 @@ struct Term {
 struct Difference {
   int low, high;
   int at_least;
-  int source = -1;  ///< engineer's constraint it comes from, or -1
+  static constexpr int kNone = -1, kLayers = -2;
+  int source = kNone;  ///< engineer's constraint it comes from; kLayers: QuantizeOptions::min_layers above 1
   friend bool operator==(const Difference&, const Difference&) = default;
   friend auto operator<=>(const Difference&, const Difference&) = default;
 };

@@ -36,11 +36,13 @@ struct Quantization {
   int c2_rounds = 0;     ///< times a solution was checked against C2
   int cuts = 0;          ///< different C2 constraints that were violated on the way
   int nodes = 0;         ///< of the search tree
+  int flows_solved = 0;    ///< flows found from nothing
+  int flows_repaired = 0;  ///< flows made from another node's
   double gap() const { return objective > bound ? (objective - bound) / objective : 0; }
 };
 
-/// Minimises Eq. 4 under C1 and C2. Throws InvalidInput when the constraints contradict each other, naming those that clash; StageFailed
-/// when the node limit is reached before any solution.
+/// Minimises Eq. 4 under C1 and C2. Past the node limit the best solution found, with optimal false and its gap. Throws InvalidInput when
+/// the constraints contradict each other, naming those that clash; StageFailed when there is no solution even without them.
 Quantization quantize(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options, const Monitor& monitor);
 
 /// What is wrong with integers given to a block complex; all zero on good ones.

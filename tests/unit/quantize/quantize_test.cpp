@@ -149,21 +149,33 @@ TEST(Quantize, CoarsestThenFinerOnTheSameBlocks) {
   }
 }
 
+AxisProblem random_problem(std::mt19937& random, int unknowns, double share) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  AxisProblem problem;
+  for (int i = 0; i < unknowns; ++i) problem.charts.push_back(i);
+  for (int i = 0; i < unknowns; ++i) {
+    for (int j = i + 1; j < unknowns; ++j) {
+      if (j > i + 1 && unit(random) > share) continue;
+      problem.terms.push_back({i, j, unit(random), 4 * unit(random) - 0.5});
+      problem.differences.push_back({i, j, unit(random) < 0.3 ? 1 : 0});
+    }
+  }
+  return problem;
+}
+
+double weight_sum(const AxisProblem& problem) {
+  double sum = 0;
+  for (const Term& t : problem.terms) sum += t.weight;
+  return sum;
+}
+
 TEST(DualFlow, MeetsEnumerationOnRandomProblems) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> unit(0, 1);
-    AxisProblem problem;
-    problem.charts = {0, 1, 2, 3};
-    for (int i = 0; i < 4; ++i) {
-      for (int j = i + 1; j < 4; ++j) {
-        if (unit(random) < 0.3) continue;
-        problem.terms.push_back({i, j, unit(random), 4 * unit(random) - 0.5});
-        problem.differences.push_back({i, j, unit(random) < 0.3 ? 1 : 0});
-      }
-    }
-    const AxisSolution solution = solve(problem, {});
-    ASSERT_TRUE(solution.feasible);
+    const AxisProblem problem = random_problem(random, 4, 0.7);
+    const AxisNetwork network(problem, 0x1p50 / weight_sum(problem));
+    const auto solution = network.solve({});
+    ASSERT_TRUE(solution);
     double best = std::numeric_limits<double>::infinity();
     for (int code = 0; code < 10 * 10 * 10; ++code) {
       const std::vector<int> values{5, code % 10, code / 10 % 10, code / 100};
@@ -173,9 +185,43 @@ TEST(DualFlow, MeetsEnumerationOnRandomProblems) {
       }
     }
     // Enumeration moves three of four unknowns within reach of the first.
-    EXPECT_LE(solution.objective, best + 1e-9) << "seed " << seed;
-    EXPECT_NEAR(solution.bound, solution.objective, 1e-9) << "seed " << seed;
+    const double reached = objective(problem, solution->values());
+    EXPECT_LE(reached, best + 1e-9) << "seed " << seed;
+    EXPECT_NEAR(solution->bound(), reached, 1e-9) << "seed " << seed;
   }
+}
+
+// A repaired flow is as good as one from nothing, whatever was demanded before.
+TEST(DualFlow, RepairMeetsSolvingAgain) {
+  int contradictions = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(seed);
+    const int unknowns = 4 + static_cast<int>(seed % 20);
+    const AxisProblem problem = random_problem(random, unknowns, 0.3);
+    const AxisNetwork network(problem, 0x1p50 / weight_sum(problem));
+    auto flow = network.solve({});
+    ASSERT_TRUE(flow);
+    std::vector<Difference> extra;
+    for (int k = 0; k < 8; ++k) {
+      const int a = static_cast<int>(random() % static_cast<unsigned>(unknowns)), b = static_cast<int>(random() % static_cast<unsigned>(unknowns));
+      if (a == b) continue;
+      extra.push_back({std::min(a, b), std::max(a, b), static_cast<int>(random() % 4)});
+      if (random() % 3 == 0) extra.back() = {std::max(a, b), std::min(a, b), -static_cast<int>(random() % 3)};
+      const auto again = network.solve(extra);
+      const bool holds = flow->demand(extra.back());
+      ASSERT_EQ(holds, again.has_value()) << "seed " << seed;
+      if (!holds) {
+        EXPECT_FALSE(contradiction(problem, extra).empty());
+        ++contradictions;
+        break;
+      }
+      for (const Difference& d : extra) EXPECT_TRUE(flow->holds(d));
+      for (const Difference& d : problem.differences) EXPECT_TRUE(flow->holds(d));
+      EXPECT_NEAR(flow->bound(), again->bound(), 1e-9 * (1 + again->bound())) << "seed " << seed;
+      EXPECT_NEAR(objective(problem, flow->values()), flow->bound(), 1e-9 * (1 + flow->bound())) << "seed " << seed;
+    }
+  }
+  EXPECT_GT(contradictions, 5);
 }
 
 }  // namespace

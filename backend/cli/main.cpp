@@ -6,11 +6,13 @@
 #include <new>
 
 #include "cli/console.h"
+#include "cli/label_picture.h"
 #include "cli/part.h"
 #include "core/draft.h"
 #include "core/error.h"
 #include "fem/fem.h"
 #include "pipeline/hex_map.h"
+#include "pipeline/inspect.h"
 #include "pipeline/label_part.h"
 #include "pipeline/pipeline.h"
 
@@ -72,31 +74,48 @@ class OptionArguments {
   std::vector<std::unique_ptr<Argument>> arguments_;
 };
 
-void set_deadline(Monitor& monitor, const MeshOptions& options, Monitor::Clock::time_point start) {
-  if (options.time_limit <= 0) return;
-  monitor.set_deadline(start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
-}
-
 double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
 
-struct MeshCommand {
-  explicit MeshCommand(CLI::App& app)
-      : command(*app.add_subcommand("mesh", "Hexahedral mesh of a CAD solid")), arguments(command) {
+/// What the commands on a CAD part have in common.
+struct PartCommand {
+  PartCommand(CLI::App& app, const char* name, const char* meaning) : command(*app.add_subcommand(name, meaning)), arguments(command) {
     command.add_option("part", part, "CAD solid: .step, .stp, .brep, .brp or .FCStd")->required();
-    command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
-    command.add_option("--object", object, "Object of a .FCStd document to mesh, by name or label");
+    command.add_option("--object", object, "Object of a .FCStd document, by name or label");
     command.add_option("--report", report, "Write a report as JSON");
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
   }
 
-  void run(Monitor& monitor, Monitor::Clock::time_point start) {
+  /// The options, checked before any work, with their time limit in force from `start`.
+  MeshOptions begin(Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    set_deadline(monitor, options, start);
-    check_output(output);
+    if (options.time_limit > 0)
+      monitor.set_deadline(start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
     if (!report.empty()) check_writable(report);
-    const auto read_start = Monitor::Clock::now();
-    const CadModel model = read_part(part, object);
+    return options;
+  }
+
+  CadModel read(const MeshOptions& options) const {
+    CadModel model = read_part(part, object);
     check(options, model.diagonal(), model.face_count());
+    return model;
+  }
+
+  CLI::App& command;
+  OptionArguments arguments;
+  std::string part, object, report;
+  bool verbose = false;
+};
+
+struct MeshCommand : PartCommand {
+  explicit MeshCommand(CLI::App& app) : PartCommand(app, "mesh", "Hexahedral mesh of a CAD solid") {
+    command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
+  }
+
+  void run(Monitor& monitor, Monitor::Clock::time_point start) const {
+    const MeshOptions options = begin(monitor, start);
+    check_output(output);
+    const auto read_start = Monitor::Clock::now();
+    const CadModel model = read(options);
     const double read_seconds = seconds_since(read_start);
     MeshResult result = mesh(model, options, monitor);
     result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
@@ -119,38 +138,42 @@ struct MeshCommand {
                 c.faces_captured, c.faces, c.edges_captured, c.edges, c.vertices_captured, c.vertices, seconds_since(start));
   }
 
-  CLI::App& command;
-  OptionArguments arguments;
-  std::string part, output, object, report;
-  bool verbose = false;
+  std::string output;
 };
 
-struct LabelCommand {
-  explicit LabelCommand(CLI::App& app)
-      : command(*app.add_subcommand("label", "Labels, charts and polycuboid map of a CAD solid, to look at")), arguments(command) {
-    command.add_option("part", part, "CAD solid: .step, .stp, .brep, .brp or .FCStd")->required();
-    command.add_option("-o,--output", output, "Labelled boundary: .vtu")->required();
-    command.add_option("--object", object, "Object of a .FCStd document, by name or label");
-    command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
+struct LabelCommand : PartCommand {
+  explicit LabelCommand(CLI::App& app) : PartCommand(app, "label", "Labels, charts and polycuboid map of a CAD solid, to look at") {
+    command.add_option("-o,--output", outputs, "Labelled boundary with charts, feature edges and map (.vtu), or its picture (.png); may be repeated")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_flag("--numbers", picture.face_numbers, "Write the numbers of the CAD faces into the picture");
+    command.add_option("--pixels", picture.size, "Width of the picture")->capture_default_str()->check(CLI::Range(100, 10000));
   }
 
-  void run(Monitor& monitor, Monitor::Clock::time_point start) {
-    const MeshOptions options = arguments.options();
-    set_deadline(monitor, options, start);
-    if (!output.ends_with(".vtu")) throw InvalidInput(output + ": the suffix must be .vtu");
-    check_writable(output);
-    const CadModel model = read_part(part, object);
-    check(options, model.diagonal(), model.face_count());
+  void run(Monitor& monitor, Monitor::Clock::time_point start) const {
+    const MeshOptions options = begin(monitor, start);
+    for (const std::string& output : outputs) {
+      if (!output.ends_with(".vtu") && !output.ends_with(".png")) throw InvalidInput(output + ": the suffix must be .vtu or .png");
+      check_writable(output);
+    }
+    const CadModel model = read(options);
     const LabelledPart labelled = label_part(model, options, monitor);
-    write_vtu(output, labelled);
-    std::printf("%s: %zu tets, %zu charts, %d flipped, %.1f s\n", output.c_str(), labelled.tets.tets.size(), labelled.map.charts.size(),
-                labelled.flipped, seconds_since(start));
+    const Inspection inspection = inspect(labelled);
+    for (const std::string& output : outputs) {
+      if (output.ends_with(".vtu")) write_vtu(output, labelled, inspection);
+      if (output.ends_with(".png")) write_picture(output, labelled, inspection, picture);
+    }
+    if (!report.empty()) write_text(report, report_json(part, model, labelled, inspection));
+    if (labelled.failure) std::cerr << "polycube: warning: no map, stage " << labelled.failure->stage() << ": " << one_line(labelled.failure->what()) << "\n";
+    const Violations& v = inspection.violations;
+    const EdgeTable edges = edge_table(labelled);
+    std::printf("%s: %s, %d turning points, %d charts, %zu corners, CAD edges %d on boundaries %d with feature charts %d not captured, %d of %zu tets flipped, %.1f s\n",
+                part.c_str(), v.valid() ? "valid" : "not valid", v.turning_points, inspection.charts, inspection.corners.size(), edges.boundary, edges.feature,
+                edges.lost, labelled.flipped, labelled.tets.tets.size(), seconds_since(start));
   }
 
-  CLI::App& command;
-  OptionArguments arguments;
-  std::string part, output, object;
-  bool verbose = false;
+  std::vector<std::string> outputs;
+  PictureOptions picture;
 };
 
 struct HexCommand {

@@ -1,9 +1,10 @@
 // The stages up to the polycuboid map alone, to look at labels, charts and features of a part.
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include "cad/cad.h"
+#include "core/error.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
 #include "core/report.h"
@@ -17,15 +18,14 @@ struct LabelledPart {
   Labelling labelling;
   LabelReport label_report;
   Features features;
-  PolycuboidMap map;
+  PolycuboidMap map;                 ///< empty where there is none
   int flipped = 0;                   ///< tets without positive volume in the image
-  std::vector<StageRecord> stages;
+  std::optional<StageFailed> failure;  ///< why there is no map
+  std::vector<StageRecord> stages;     ///< tet, label, deform
 };
 
-/// Throws as the pipeline does.
+/// Throws as the pipeline does up to the labels; labels without a map are handed out, to see what is wrong with them. All in the part's own place and the
+/// user's axes.
 LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor);
-
-/// Boundary triangles with cell data label, chart, face and point data image (VTK XML); feature charts and chart boundaries as lines.
-void write_vtu(const std::string& path, const LabelledPart& part);
 
 }  // namespace polycube

@@ -22,7 +22,7 @@ Colour label_paint(int label) {
 }
 
 Colour shaded(Colour c, double light) {
-  const auto channel = [&](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v * (0.5 + 0.5 * light))); };
+  const auto channel = [&](std::uint8_t v) { return static_cast<std::uint8_t>(std::lround(v * (0.62 + 0.38 * light))); };
   return {channel(c.r), channel(c.g), channel(c.b)};
 }
 

@@ -1,20 +1,17 @@
 // Blocks, quantization and hexes of random polycubes: always a valid mesh, always optimal.
-#include "support/polycubes.h"
-
-#include <gtest/gtest.h>
-
 #include <queue>
 
 #include "core/error.h"
-#include "hex/hex.h"
 #include "quantize/monotone.h"
 #include "quantize/problem.h"
+#include "support/polycubes_check.h"
 
 namespace polycube {
 namespace {
 
 using testing::Cells;
 using testing::Example;
+using testing::expect_valid;
 
 /// C2 by walking from every vertex in every octant.
 bool c2_holds(const MonotonePaths& paths, const std::array<const std::vector<int>*, 3>& values) {
@@ -69,7 +66,10 @@ double brute_force(const BlockComplex& blocks, const PolycuboidMap& map, const Q
   const QuantizeProblem problem = build_problem(blocks, map, options);
   const MonotonePaths paths(blocks, map, problem, options.separate_features);
   std::array<std::vector<std::pair<double, std::vector<int>>>, 3> choices;
-  for (int d = 0; d < 3; ++d) choices[d] = assignments(problem.axes[d], most);
+  for (int d = 0; d < 3; ++d) {
+    choices[d] = assignments(problem.axes[d], most);
+    if (choices[d].empty()) return -1;
+  }
   const auto cost = [&](const std::array<std::size_t, 3>& at) {
     return choices[0][at[0]].first + choices[1][at[1]].first + choices[2][at[2]].first;
   };
@@ -91,113 +91,177 @@ double brute_force(const BlockComplex& blocks, const PolycuboidMap& map, const Q
   return -1;
 }
 
-void expect_valid(const Example& e, double scale, const std::string& what, const BlockComplex& blocks) {
-  QuantizeOptions options;
-  options.scale = scale;
-  const Quantization q = quantize(blocks, e.map, options, Monitor());
-  const QuantizeReport report = check(blocks, e.map, options, q.value);
-  EXPECT_TRUE(report.good()) << what << " scale " << scale << ": c1 " << report.c1 << " opposite " << report.opposite << " c2 "
-                             << report.c2;
-  EXPECT_TRUE(q.optimal) << what;
-  EXPECT_NEAR(report.objective, q.objective, 1e-9 * (1 + q.objective)) << what;
-  EXPECT_NEAR(q.bound, q.objective, 1e-9 * (1 + q.objective)) << what;
-  const HexComplex hexes = build_hexes(e.tets, e.map, blocks, q, Monitor());
-  EXPECT_TRUE(check(hexes, e.map, blocks).good(euler_characteristic(e.tets.triangles))) << what << " scale " << scale;
-}
-
+/// New places for the planes of the charts: some stay, some are nearly where another one is, by more or less than what counts as one plane.
 std::vector<double> random_values(const Example& e, std::mt19937& random, double spread) {
   std::uniform_real_distribution<double> unit(-1, 1);
+  constexpr std::array<double, 4> kNearly{1e-13, 1e-10, 1e-8, 1e-6};
   std::vector<double> values;
   for (const Chart& chart : e.map.charts) {
-    // Some stay on the grid, some are nearly on it.
     const double choice = unit(random);
-    values.push_back(chart.value + (choice < -0.3 ? 0 : choice < 0 ? 1e-7 * unit(random) : spread * unit(random)));
+    const double near = kNearly[random() % kNearly.size()];
+    values.push_back(chart.value + (choice < -0.3 ? 0 : choice < 0 ? near * unit(random) : spread * unit(random)));
   }
   return values;
 }
 
-TEST(Polycubes, RandomBoxesTunnelsAndPockets) {
-  int charts = 0;
-  for (unsigned seed = 0; seed < 400; ++seed) {
-    std::mt19937 random(seed);
-    Example e = testing::tetrahedralise(testing::random_cells(random, 2 + static_cast<int>(seed % 9), 4), 1);
-    const std::string what = "seed " + std::to_string(seed);
-    testing::set_values(e, random_values(e, random, 0.35));
-    const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
-    charts += static_cast<int>(e.map.charts.size());
-    for (double scale : {0.0, 0.4, 1.0, 2.7}) expect_valid(e, scale, what, blocks);
+enum class Kind { kBoxes, kDrilled, kTree, kChain, kSpiral, kSpring };
+
+Cells random_shape(std::mt19937& random, Kind kind, int size) {
+  switch (kind) {
+    case Kind::kBoxes: return testing::random_cells(random, size, 4);
+    case Kind::kDrilled: return testing::drilled_box(random, size);
+    case Kind::kTree: return testing::box_tree(random, 2 * size);
+    case Kind::kChain: return testing::random_chain(random, 1 + size);
+    case Kind::kSpiral: return testing::flat_spiral(size, 2 + static_cast<int>(random() % 3));
+    case Kind::kSpring: return testing::spring(1 + size / 3, 2 + static_cast<int>(random() % 2));
   }
-  EXPECT_GT(charts, 400 * 10);
+  return {};
+}
+
+Kind kind_of(unsigned seed) { return static_cast<Kind>(seed % 6); }
+
+bool covers_itself(const Cells& cells) {
+  return std::set<testing::Place3>(cells.places.begin(), cells.places.end()).size() < cells.places.size();
+}
+
+/// The blocks, or none and a failure that tells which example it was.
+BlockComplex blocks_of(const Example& e, const std::string& what) {
+  try {
+    return extract_blocks(e.tets, e.map, Monitor());
+  } catch (const std::exception& error) {
+    ADD_FAILURE() << what << ": " << error.what();
+    return {};
+  }
+}
+
+/// Node coordinates along which no chart holds it, as (node, axis).
+std::vector<std::array<int, 2>> free_coordinates(const Example& e, bool boundary) {
+  std::vector<std::array<char, 3>> fixed(e.tets.points.size(), {0, 0, 0});
+  for (const Chart& chart : e.map.charts) {
+    for (int n : chart.nodes) fixed[n][chart.axis] = 1;
+  }
+  std::vector<std::array<int, 2>> result;
+  for (int n = 0; n < static_cast<int>(fixed.size()); ++n) {
+    if (boundary && e.inner[n]) continue;
+    for (int d = 0; d < 3; ++d) {
+      if (!fixed[n][d]) result.push_back({n, d});
+    }
+  }
+  return result;
+}
+
+TEST(Polycubes, BoxesTunnelsPocketsTreesAndOverlaps) {
+  int charts = 0, overlaps = 0, tunnels = 0, cavities = 0;
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    std::mt19937 random(seed);
+    const Cells cells = random_shape(random, kind_of(seed), 2 + static_cast<int>(seed / 6 % 9));
+    Example e = testing::tetrahedralise(cells, 1);
+    const int euler = euler_characteristic(e.tets.triangles);
+    tunnels += euler <= 0;
+    cavities += euler > 2;
+    overlaps += covers_itself(cells);
+    testing::set_values(e, random_values(e, random, 0.35), 20);
+    const BlockComplex blocks = blocks_of(e, "seed " + std::to_string(seed));
+    charts += static_cast<int>(e.map.charts.size());
+    if (blocks.blocks.empty()) continue;
+    constexpr std::array<double, 4> kScales{0.0, 0.4, 1.0, 2.7};
+    for (double scale : {kScales[seed % 4], kScales[(seed + 1) % 4]}) {
+      expect_valid(e, scale, "seed " + std::to_string(seed), blocks);
+    }
+  }
+  EXPECT_GT(charts, 3000 * 10);
+  EXPECT_GT(overlaps, 800);
+  EXPECT_GT(tunnels, 50);
+  EXPECT_GT(cavities, 5);
 }
 
 TEST(Polycubes, FlippedAndSquashedTets) {
   int flipped = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    std::mt19937 random(1000 + seed);
-    Example e = testing::tetrahedralise(testing::random_cells(random, 3 + static_cast<int>(seed % 5), 3), 3);
-    testing::set_values(e, random_values(e, random, 0.3));
-    testing::disturb(e, random, 0.02, 0.7);
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    std::mt19937 random(10000 + seed);
+    Example e = testing::tetrahedralise(random_shape(random, kind_of(seed), 2 + static_cast<int>(seed / 6 % 4)), 2 + static_cast<int>(seed % 2));
+    testing::set_values(e, random_values(e, random, 0.3), 20);
+    testing::disturb(e, random, 0.05, 0.7);
     flipped += testing::flipped_tets(e);
-    const std::string what = "seed " + std::to_string(seed);
-    const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
-    for (double scale : {0.0, 1.0}) expect_valid(e, scale, what, blocks);
+    const BlockComplex blocks = blocks_of(e, "seed " + std::to_string(seed));
+    if (blocks.blocks.empty()) continue;
+    expect_valid(e, seed % 2 == 0 ? 0.0 : 1.0, "seed " + std::to_string(seed), blocks);
   }
-  EXPECT_GT(flipped, 1000);
+  EXPECT_GT(flipped, 10000);
 }
 
 // Nodes of charts and of their borders overshoot: sheets are torn, charts fold over their borders.
 TEST(Polycubes, FoldedBoundaries) {
-  for (unsigned seed = 0; seed < 40; ++seed) {
-    std::mt19937 random(3000 + seed);
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(20000 + seed);
     std::uniform_real_distribution<double> unit(0, 1);
-    Example e = testing::tetrahedralise(testing::random_cells(random, 3 + static_cast<int>(seed % 5), 3), 3);
-    testing::set_values(e, random_values(e, random, 0.3));
-    std::vector<std::array<char, 3>> fixed(e.tets.points.size(), {0, 0, 0});
-    for (const Chart& chart : e.map.charts) {
-      for (int n : chart.nodes) fixed[n][chart.axis] = 1;
+    Example e = testing::tetrahedralise(random_shape(random, kind_of(seed), 2 + static_cast<int>(seed / 6 % 4)), 3);
+    testing::set_values(e, random_values(e, random, 0.3), 20);
+    int node = -1;
+    bool moved = false;
+    for (const auto& [n, d] : free_coordinates(e, true)) {
+      if (n != node) moved = unit(random) < 0.3;
+      node = n;
+      if (moved) e.map.image[n][d] += 2 * unit(random) - 1;
     }
-    for (std::size_t n = 0; n < fixed.size(); ++n) {
-      if (e.inner[n] || unit(random) > 0.3) continue;
-      for (int d = 0; d < 3; ++d) {
-        if (!fixed[n][d]) e.map.image[n][d] += 2 * unit(random) - 1;
-      }
-    }
-    const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
-    for (double scale : {0.0, 1.0}) expect_valid(e, scale, "seed " + std::to_string(seed), blocks);
+    const BlockComplex blocks = blocks_of(e, "seed " + std::to_string(seed));
+    if (blocks.blocks.empty()) continue;
+    expect_valid(e, seed % 2 == 0 ? 0.0 : 1.0, "seed " + std::to_string(seed), blocks);
   }
 }
 
-TEST(Polycubes, OverlappingSpirals) {
+TEST(Polycubes, OverlapsKeepTheirVolume) {
   for (int corners = 1; corners <= 9; ++corners) {
-    std::mt19937 random(static_cast<unsigned>(corners));
-    Example e = testing::tetrahedralise(testing::flat_spiral(corners), 1);
-    const std::string what = std::to_string(corners) + " corners";
-    const BlockComplex straight = extract_blocks(e.tets, e.map, Monitor());
+    const Example e = testing::tetrahedralise(testing::flat_spiral(corners), 1);
     double volume = 0;
-    for (const Block& b : straight.blocks) volume += b.volume;
-    EXPECT_NEAR(volume, 3 * (corners + 1) + 1, 1e-9) << what;
-    testing::set_values(e, random_values(e, random, 0.3));
-    const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
-    for (double scale : {0.0, 0.5, 1.0, 3.0}) expect_valid(e, scale, what, blocks);
+    for (const Block& b : extract_blocks(e.tets, e.map, Monitor()).blocks) volume += b.volume;
+    EXPECT_NEAR(volume, 3 * (corners + 1) + 1, 1e-9) << corners << " corners";
+  }
+}
+
+/// Distances that the map's own order allows, between random charts of one axis.
+void add_constraints(QuantizeOptions& options, const Example& e, const BlockComplex& blocks, std::mt19937& random) {
+  for (int k = 0; k < 2; ++k) {
+    int low = static_cast<int>(random() % e.map.charts.size()), high = static_cast<int>(random() % e.map.charts.size());
+    if (e.map.charts[low].axis != e.map.charts[high].axis || blocks.unknown[low] < 0 || blocks.unknown[high] < 0) continue;
+    if (e.map.charts[low].value > e.map.charts[high].value) std::swap(low, high);
+    if (blocks.unknown[low] == blocks.unknown[high]) continue;
+    DistanceConstraint c{low, high, static_cast<int>(random() % 3), std::numeric_limits<int>::max(), "constraint " + std::to_string(k)};
+    if (random() % 2 == 0) c.at_most = c.at_least + static_cast<int>(random() % 2);
+    options.constraints.push_back(c);
   }
 }
 
 TEST(Polycubes, OptimumOfSmallOnesIsThatOfBruteForce) {
-  int compared = 0;
-  for (unsigned seed = 0; seed < 150; ++seed) {
-    std::mt19937 random(5000 + seed);
-    Example e = testing::tetrahedralise(testing::random_cells(random, 2, 3), 1);
-    testing::set_values(e, random_values(e, random, 0.4));
+  int compared = 0, constrained = 0, refused = 0;
+  for (unsigned seed = 0; seed < 1200; ++seed) {
+    std::mt19937 random(30000 + seed);
+    Example e = testing::tetrahedralise(random_shape(random, kind_of(seed), 1 + static_cast<int>(seed / 6 % 3)), 1);
+    testing::set_values(e, random_values(e, random, 0.4), 20);
     const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
     QuantizeOptions options;
-    options.scale = seed % 3 == 0 ? 0.0 : seed % 3 == 1 ? 0.3 : 0.9;
+    options.scale = seed % 3 == 0 ? 0.0 : seed % 3 == 1 ? 0.3 : 0.8;
+    options.min_layers = seed % 7 == 0 ? 2 : 1;
+    if (seed % 2 == 0) add_constraints(options, e, blocks, random);
     const QuantizeProblem problem = build_problem(blocks, e.map, options);
-    if (std::any_of(problem.axes.begin(), problem.axes.end(), [](const AxisProblem& a) { return a.charts.size() > 6; })) continue;
-    const Quantization q = quantize(blocks, e.map, options, Monitor());
-    EXPECT_NEAR(q.objective, brute_force(blocks, e.map, options, 6), 1e-9 * (1 + q.objective)) << "seed " << seed;
+    if (std::any_of(problem.axes.begin(), problem.axes.end(), [](const AxisProblem& a) { return a.charts.size() > 5; })) continue;
+    const double best = brute_force(blocks, e.map, options, 7);
+    try {
+      const Quantization q = quantize(blocks, e.map, options, Monitor());
+      EXPECT_TRUE(check(blocks, e.map, options, q.value).good()) << "seed " << seed;
+      EXPECT_NEAR(q.objective, best, 1e-9 * (1 + q.objective)) << "seed " << seed;
+      constrained += !options.constraints.empty();
+    } catch (const InvalidInput& error) {
+      // Only what brute force cannot satisfy either, and never without a constraint that is named.
+      EXPECT_LT(best, 0) << "seed " << seed << ": " << error.what();
+      EXPECT_NE(std::string(error.what()).find("constraint "), std::string::npos) << error.what();
+      ++refused;
+    }
     ++compared;
   }
-  EXPECT_GT(compared, 50);
+  EXPECT_GT(compared, 300);
+  EXPECT_GT(constrained, 50);
+  EXPECT_GT(refused, 5);
 }
 
 }  // namespace

@@ -96,6 +96,28 @@ inline Cells flat_spiral(int corners, int length = 3) {
   return chain(steps);
 }
 
+/// A spring whose turns lie over one another: every turn goes up one level and down again.
+inline Cells spring(int turns, int length = 3) {
+  std::vector<int> steps;
+  for (int t = 0; t < turns; ++t) {
+    for (int side : {1, 5, 3, 0, 4, 2}) steps.insert(steps.end(), static_cast<std::size_t>(length), side);
+  }
+  return chain(steps);
+}
+
+/// A chain of `runs` straight pieces with random right-angled turns; sooner or later it passes through itself.
+inline Cells random_chain(std::mt19937& random, int runs) {
+  const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  std::vector<int> steps;
+  int last = pick(0, 5);
+  for (int r = 0; r < runs; ++r) {
+    // Two steps at least, or a turn back would lie against the piece before the last.
+    steps.insert(steps.end(), static_cast<std::size_t>(pick(2, 4)), last);
+    last = (2 * (last / 2 + pick(1, 2)) + pick(0, 1)) % 6;
+  }
+  return chain(steps);
+}
+
 /// Each cell refined to m x m x m.
 inline Cells refine(const Cells& cells, int m) {
   Cells fine;
@@ -159,6 +181,73 @@ inline std::vector<Hex> cell_nodes(const Cells& cells, std::vector<Place3>& plac
     nodes[i / 8][i % 8] = n;
   }
   return nodes;
+}
+
+/// Whether two cells that share an edge lie side by side without adjoining: a slit of no width.
+inline bool has_slit(const Cells& cells) {
+  std::vector<Place3> places;
+  const auto nodes = cell_nodes(cells, places);
+  std::multimap<Place3, int> at;
+  for (int c = 0; c < static_cast<int>(cells.places.size()); ++c) at.emplace(cells.places[c], c);
+  for (int c = 0; c < static_cast<int>(cells.places.size()); ++c) {
+    for (int side : {1, 3, 5}) {
+      const auto [begin, end] = at.equal_range(beside(cells.places[c], side));
+      for (auto other = begin; other != end; ++other) {
+        if (cells.neighbours[c][side] == other->second) continue;
+        int shared = 0;
+        for (int a : kHexFaces[side]) {
+          for (int b : kHexFaces[side - 1]) shared += nodes[c][a] == nodes[other->second][b];
+        }
+        if (shared >= 2) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Boxes grown from random free sides of the boxes before: a tree, whose branches may pass through one another.
+inline Cells box_tree(std::mt19937& random, int boxes) {
+  const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  Cells cells;
+  const auto add = [&](const Place3& low, const Place3& high) {
+    std::set<Place3> places;
+    add_box(places, low, high);
+    const Cells box = voxels(places);
+    const int first = static_cast<int>(cells.places.size());
+    for (std::size_t c = 0; c < box.places.size(); ++c) {
+      cells.places.push_back(box.places[c]);
+      auto n = box.neighbours[c];
+      for (int& k : n) k = k < 0 ? -1 : k + first;
+      cells.neighbours.push_back(n);
+    }
+    return first;
+  };
+  add({0, 0, 0}, {pick(1, 3), pick(1, 3), pick(1, 3)});
+  for (int b = 1; b < boxes; ++b) {
+    const int side = pick(0, 5), axis = side / 2, right = (axis + 1) % 3, up = (axis + 2) % 3;
+    const int width = pick(1, 2), height = pick(1, 2), length = pick(1, 3);
+    // The cells that the branch stands on.
+    std::map<Place3, int> foot;
+    int row = pick(0, static_cast<int>(cells.places.size()) - 1);
+    for (int i = 0; i < width && row >= 0; ++i, row = cells.neighbours[row][2 * right + 1]) {
+      int c = row;
+      for (int j = 0; j < height && c >= 0; ++j, c = cells.neighbours[c][2 * up + 1]) foot[beside(cells.places[c], side)] = c;
+    }
+    const auto free = [&](const auto& f) { return cells.neighbours[f.second][side] < 0; };
+    if (foot.size() != static_cast<std::size_t>(width * height) || !std::all_of(foot.begin(), foot.end(), free)) continue;
+    Place3 low = foot.begin()->first, high = beside(beside(beside(foot.rbegin()->first, 1), 3), 5);
+    (side % 2 == 0 ? low : high)[axis] += side % 2 == 0 ? 1 - length : length - 1;
+    Cells before = cells;
+    const int first = add(low, high);
+    for (int c = first; c < static_cast<int>(cells.places.size()); ++c) {
+      const auto at = foot.find(cells.places[c]);
+      if (at == foot.end()) continue;
+      cells.neighbours[at->second][side] = c;
+      cells.neighbours[c][side ^ 1] = at->second;
+    }
+    if (has_slit(cells)) cells = std::move(before);
+  }
+  return cells;
 }
 
 /// Whether the boundary of cells in space is a manifold: nowhere does it touch itself, not even along an edge.
@@ -347,6 +436,45 @@ int add_feature(Example& e, int axis, double value, const Chosen& chosen) {
   return static_cast<int>(e.map.charts.size()) - 1;
 }
 
+inline bool is_connected(const Cells& cells) {
+  std::vector<char> seen(cells.places.size(), 0);
+  std::vector<int> reached{0};
+  seen[0] = 1;
+  for (std::size_t i = 0; i < reached.size(); ++i) {
+    for (int n : cells.neighbours[static_cast<std::size_t>(reached[i])]) {
+      if (n < 0 || seen[static_cast<std::size_t>(n)]) continue;
+      seen[static_cast<std::size_t>(n)] = 1;
+      reached.push_back(n);
+    }
+  }
+  return reached.size() == cells.places.size();
+}
+
+/// A box with holes drilled through it and hollows inside, all of one cell's width or more. Always connected and a manifold.
+inline Cells drilled_box(std::mt19937& random, int holes) {
+  const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  const Place3 size{pick(3, 5), pick(3, 5), pick(3, 5)};
+  std::set<Place3> places;
+  add_box(places, {0, 0, 0}, size);
+  for (int h = 0; h < holes; ++h) {
+    Place3 low, high;
+    for (int d = 0; d < 3; ++d) {
+      low[d] = pick(1, size[d] - 2);
+      high[d] = pick(low[d] + 1, size[d] - 1);
+    }
+    const int through = pick(0, 4);  // 3 and 4: a hollow
+    if (through < 3) {
+      low[through] = 0;
+      high[through] = size[through];
+    }
+    auto trial = places;
+    remove_box(trial, low, high);
+    const Cells cells = voxels(trial);
+    if (is_connected(cells) && is_manifold(cells)) places = std::move(trial);
+  }
+  return voxels(places);
+}
+
 /// Random boxes joined to one another, with boxes cut out: tunnels, cavities, pockets. Always connected and a manifold.
 inline Cells random_cells(std::mt19937& random, int boxes, int size) {
   const auto pick = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
@@ -363,17 +491,7 @@ inline Cells random_cells(std::mt19937& random, int boxes, int size) {
     }
     if (trial.empty()) continue;
     const Cells cells = voxels(trial);
-    std::vector<char> seen(cells.places.size(), 0);
-    std::vector<int> reached{0};
-    seen[0] = 1;
-    for (std::size_t i = 0; i < reached.size(); ++i) {
-      for (int n : cells.neighbours[static_cast<std::size_t>(reached[i])]) {
-        if (n < 0 || seen[static_cast<std::size_t>(n)]) continue;
-        seen[static_cast<std::size_t>(n)] = 1;
-        reached.push_back(n);
-      }
-    }
-    if (reached.size() == cells.places.size() && is_manifold(cells)) places = std::move(trial);
+    if (is_connected(cells) && is_manifold(cells)) places = std::move(trial);
   }
   return voxels(places);
 }

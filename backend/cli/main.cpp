@@ -39,8 +39,9 @@ class OptionArguments {
         argument.parsed = command.add_flag(flag, option.meaning);
       } else {
         argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
-        if (type == "labels") argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->type_name("Face3=+X");
-        if (type != "labels") argument.parsed->type_name(type_name(option));
+        const bool list = type == "labels" || type == "divisions" || type == "sizes";
+        if (list) argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+        argument.parsed->type_name(type == "labels" ? "Face3=+X" : type == "divisions" ? "Edge4=6" : type == "sizes" ? "Face3=mm" : type_name(option));
       }
       argument.parsed->group(group);
     }
@@ -96,7 +97,7 @@ struct PartCommand {
 
   CadModel read(const MeshOptions& options) const {
     CadModel model = read_part(part, object);
-    check(options, model.diagonal(), model.face_count());
+    check(options, model.diagonal(), model.face_count(), model.edge_count());
     return model;
   }
 

@@ -126,6 +126,8 @@ void set(MeshOptions& options, const OptionSpec& option, const std::string& text
                  [&](std::string MeshOptions::*m) { options.*m = text; },
                  [&](FaceLabels MeshOptions::*m) { options.*m = parse_labels(option, text); },
                  [&](FrameAxes MeshOptions::*m) { options.*m = parse_frame(option, text); },
+                 [&](Divisions MeshOptions::*m) { options.*m = parse_divisions(flag(option.name), text); },
+                 [&](LocalSizes MeshOptions::*m) { options.*m = parse_local_sizes(flag(option.name), text); },
              },
              option.member);
 }
@@ -188,6 +190,20 @@ const std::vector<OptionSpec>& option_table() {
        .unit = "",
        .meaning = "Directions of the labels' X and Y in the part's coordinates, such as 1,0,0/0,1,0. Default: found from the part.",
        .member = &MeshOptions::frame},
+      {.name = "min_layers",
+       .unit = "",
+       .meaning = "Elements through every wall at least.",
+       .member = &MeshOptions::min_layers,
+       .min = 1,
+       .max = 1000},
+      {.name = "divisions",
+       .unit = "",
+       .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.",
+       .member = &MeshOptions::divisions},
+      {.name = "sizes",
+       .unit = "mm",
+       .meaning = "Other edge lengths at CAD faces and along the labels' axes, such as Face3=0.5,X=2.",
+       .member = &MeshOptions::sizes},
       {.name = "feature_angle",
        .unit = "degrees",
        .meaning = "CAD edges that bend less than this need not be followed by mesh edges. 0: follow all.",
@@ -217,7 +233,7 @@ const std::vector<OptionSpec>& option_table() {
 }
 
 std::string option_type(const OptionSpec& option) {
-  static constexpr std::array<const char*, 6> kTypes{"double", "int", "bool", "string", "labels", "frame"};
+  static constexpr std::array<const char*, 8> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes"};
   return kTypes[option.member.index()];
 }
 
@@ -232,6 +248,17 @@ MeshOptions parse_options(const std::vector<std::pair<std::string, std::string>>
   check(options);
   return options;
 }
+
+namespace {
+
+template <class Items>
+std::string joined(const Items& items) {
+  std::string text;
+  for (const auto& item : items) text += (text.empty() ? "" : ",") + text_of(item);
+  return text;
+}
+
+}  // namespace
 
 std::string option_text(const MeshOptions& options, const OptionSpec& option) {
   return std::visit(Overloaded{
@@ -251,6 +278,8 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option) {
                             text += (text.empty() ? "" : "/") + number_text(axis[0]) + "," + number_text(axis[1]) + "," + number_text(axis[2]);
                           return text;
                         },
+                        [&](Divisions MeshOptions::*m) { return joined(options.*m); },
+                        [&](LocalSizes MeshOptions::*m) { return joined(options.*m); },
                     },
                     option.member);
 }
@@ -275,7 +304,7 @@ void check(const MeshOptions& options) {
                        ", but --order " + std::to_string(options.order) + " is asked for");
 }
 
-void check(const MeshOptions& options, double diagonal, int face_count) {
+void check(const MeshOptions& options, double diagonal, int face_count, int edge_count) {
   check(options);
   if (options.size > diagonal) {
     char text[160];
@@ -286,6 +315,16 @@ void check(const MeshOptions& options, double diagonal, int face_count) {
     if (face > face_count)
       throw InvalidInput("--labels: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
   }
+  const auto check_entity = [](const char* option, const char* kind, int id, int count) {
+    if (id > count)
+      throw InvalidInput(std::string(option) + ": " + kind + std::to_string(id) + " does not exist, the part has " + std::to_string(count) +
+                         (kind[0] == 'F' ? " faces" : " edges"));
+  };
+  for (const Division& d : options.divisions) {
+    check_entity("--divisions", "Edge", d.edge, edge_count);
+    for (int face : d.faces) check_entity("--divisions", "Face", face, face_count);
+  }
+  for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, face_count);
 }
 
 const char* label_name(int label) { return kLabelNames.at(label); }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/demands.h"
 #include "core/types.h"
 
 namespace polycube {
@@ -28,6 +29,9 @@ struct MeshOptions {
   int threads = 0;
   FaceLabels labels;
   FrameAxes frame;
+  int min_layers = 1;
+  Divisions divisions;
+  LocalSizes sizes;
   double fidelity = 3;
   double compactness = 1;
 };
@@ -35,7 +39,7 @@ struct MeshOptions {
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
   using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
-                              FrameAxes MeshOptions::*>;
+                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*>;
   std::string name;
   std::string unit;                  ///< "mm", "s", "degrees" or empty
   std::string meaning;               ///< one sentence
@@ -48,7 +52,7 @@ struct OptionSpec {
 
 const std::vector<OptionSpec>& option_table();
 
-/// "double", "int", "bool", "string", "labels" or "frame".
+/// "double", "int", "bool", "string", "labels", "frame", "divisions" or "sizes".
 std::string option_type(const OptionSpec& option);
 
 /// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"),
@@ -64,8 +68,9 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option);
 /// a frame whose axes are no directions or not at right angles.
 void check(const MeshOptions& options);
 
-/// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label names a face it does not have.
-void check(const MeshOptions& options, double diagonal, int face_count);
+/// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division or a local size names a
+/// face or edge it does not have.
+void check(const MeshOptions& options, double diagonal, int face_count, int edge_count);
 
 /// "+X", "-X", ... of a label 0..5.
 const char* label_name(int label);

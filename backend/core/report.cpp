@@ -17,10 +17,10 @@ Json options_json(const MeshOptions& options) {
   for (const OptionSpec& option : option_table()) {
     std::visit(
         [&](auto member) {
-          if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*> || std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
-            json[option.name] = option_text(options, option);
-          } else {
+          if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(options.*member)>>) {
             json[option.name] = options.*member;
+          } else {
+            json[option.name] = option_text(options, option);
           }
         },
         option.member);

@@ -376,7 +376,7 @@ class Run {
 
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
-  check(options, model.diagonal(), model.face_count());
+  check(options, model.diagonal(), model.face_count(), model.edge_count());
   const Pose pose = canonical_pose(model, options.frame);
   const MeshOptions posed = pose.posed(options);
   MeshResult result = Run(pose, posed, monitor).run();

@@ -1,28 +1,11 @@
 #include <pybind11/stl.h>
 
-#include <Eigen/Geometry>
-#include <map>
-
-#include "pipeline/label_part.h"
+#include "core/charts.h"
+#include "pipeline/inspect.h"
 #include "python/bindings.h"
 
 namespace polycube::python {
 namespace {
-
-/// The label that covers most of each CAD face.
-py::dict face_labels(const LabelledPart& part) {
-  std::map<int, std::array<double, 6>> areas;
-  for (std::size_t t = 0; t < part.tets.triangles.size(); ++t) {
-    const auto& [a, b, c] = part.tets.triangles[t];
-    const auto& p = part.tets.points;
-    auto [it, fresh] = areas.try_emplace(part.tets.triangle_face[t]);
-    if (fresh) it->second.fill(0);
-    it->second[static_cast<std::size_t>(part.labelling.label[t])] += (p[b] - p[a]).cross(p[c] - p[a]).norm();
-  }
-  py::dict labels;
-  for (const auto& [face, area] : areas) labels[py::int_(face)] = std::distance(area.begin(), std::max_element(area.begin(), area.end()));
-  return labels;
-}
 
 py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const py::object& progress, const py::object& log,
               const py::object& cancel, const py::kwargs& given) {
@@ -30,7 +13,7 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   Callbacks callbacks(progress, log, cancel);
   const LabelledPart part = run_released(callbacks, options, [&] {
     const CadModel model = read_model(path, brep);
-    check(options, model.diagonal(), model.face_count());
+    check(options, model.diagonal(), model.face_count(), model.edge_count());
     return label_part(model, options, callbacks.monitor);
   });
   py::array_t<double> frame({3, 3});
@@ -42,16 +25,35 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   result["triangle_face"] = to_array(part.tets.triangle_face);
   result["label"] = to_array(part.labelling.label);
   result["frame"] = frame;
-  result["face_label"] = face_labels(part);
+  py::dict face_label;
+  const std::vector<int> labels = face_labels(part, face_count);
+  for (int f = 1; f <= face_count; ++f) face_label[py::int_(f)] = labels[static_cast<std::size_t>(f)];
+  result["face_label"] = face_label;
+  result["chart"] = to_array(inspection.chart);
+  result["corners"] = to_array(inspection.corners);
+  result["turning_points"] = to_array(inspection.turning_points);
+  result["valid"] = inspection.violations.valid();
+  py::dict edges;
+  for (const FeatureEdge& e : part.features.edges)
+    edges[py::int_(e.edge)] = py::make_tuple(std::array{"boundary", "feature", "lost"}.at(static_cast<std::size_t>(e.capture)), e.reason);
+  result["edges"] = edges;
   return result;
 }
 
 }  // namespace
 
 void bind_labels(py::module_& module) {
+  py::list names, colours;
+  for (int label = 0; label < 6; ++label) {
+    names.append(label_name(label));
+    const auto [r, g, b] = label_colour(label);
+    colours.append(py::make_tuple(r, g, b));
+  }
+  module.attr("LABEL_NAMES") = names;
+  module.attr("LABEL_COLOURS") = colours;
   module.def("labels", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("progress") = py::none(),
              py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-             "Labels of the boundary of one CAD solid (0..5 = +X -X +Y -Y +Z -Z of the frame), to look at.");
+             "Labels of the boundary of one CAD solid (0..5 = +X -X +Y -Y +Z -Z of the frame), to look at; see backend/python/README.md.");
 }
 
 }  // namespace polycube::python

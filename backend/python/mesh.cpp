@@ -49,7 +49,7 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
     const auto seconds = [](Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); };
     const auto read_start = Monitor::Clock::now();
     const CadModel model = read_model(path, brep);
-    check(options, model.diagonal(), model.face_count());
+    check(options, model.diagonal(), model.face_count(), model.edge_count());
     const double read_seconds = seconds(read_start);
     MeshResult result = polycube::mesh(model, options, callbacks.monitor);
     const auto fem_start = Monitor::Clock::now();

@@ -38,6 +38,8 @@ py::dict describe(const OptionSpec& option) {
           entry["default"] = py::dict();
         } else if constexpr (std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
           entry["default"] = py::list();
+        } else if constexpr (std::is_same_v<decltype(member), Divisions MeshOptions::*> || std::is_same_v<decltype(member), LocalSizes MeshOptions::*>) {
+          entry["default"] = "";
         } else {
           entry["default"] = defaults.*member;
         }

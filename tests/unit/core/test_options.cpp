@@ -102,13 +102,51 @@ TEST(Options, RefusesBadFramesInOneLine) {
   EXPECT_THAT(complaint({{"frame", "1,0,0/1,1,0"}}), HasSubstr("not 45 degrees apart"));
 }
 
+TEST(Options, DivisionsAndSizesReadBackAsTheSame) {
+  const MeshOptions o = parse_options({{"min_layers", "3"}, {"divisions", "Edge4=6, Face5-Face1=3..,Edge7=..4,Edge8=2..5"}, {"sizes", "Face3=0.5,X=2"}});
+  EXPECT_EQ(o.min_layers, 3);
+  ASSERT_EQ(o.divisions.size(), 4u);
+  EXPECT_EQ(o.divisions[1].faces, (std::array{1, 5}));
+  EXPECT_EQ(o.divisions[1].at_least, 3);
+  EXPECT_EQ(o.divisions[1].at_most, Division::kNoMaximum);
+  EXPECT_EQ(o.divisions[2].at_most, 4);
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const OptionSpec& option : option_table()) {
+    if (option.name == "divisions" || option.name == "sizes") texts.emplace_back(option.name, option_text(o, option));
+  }
+  EXPECT_EQ(texts[0].second, "Edge4=6,Face1-Face5=3..,Edge7=..4,Edge8=2..5");
+  const MeshOptions again = parse_options(texts);
+  EXPECT_EQ(again.divisions, o.divisions);
+  EXPECT_EQ(again.sizes, o.sizes);
+}
+
+TEST(Options, RefusesBadDivisionsAndSizes) {
+  for (const char* bad : {"Edge4", "Edge=3", "Edge0=3", "Edge4=", "Edge4=0", "Edge4=..", "Edge4=5..2", "Edge4=1.5", "Face1=3", "Face1-Edge2=3", "Edge4=9999999"})
+    EXPECT_THAT(complaint({{"divisions", bad}}), HasSubstr("--divisions")) << bad;
+  for (const char* bad : {"Face1", "Face0=1", "Edge1=1", "W=1", "X=0", "X=-1", "X=nan", "X=1,X=2", "X=1mm"})
+    EXPECT_THAT(complaint({{"sizes", bad}}), HasSubstr("--sizes")) << bad;
+  EXPECT_THAT(complaint({{"min_layers", "0"}}), HasSubstr("--min-layers"));
+}
+
 TEST(Options, AgainstThePart) {
   MeshOptions o;
   o.size = 11;
-  EXPECT_THROW(check(o, 10, 6), InvalidInput);
-  EXPECT_NO_THROW(check(o, 12, 6));
+  EXPECT_THROW(check(o, 10, 6, 12), InvalidInput);
+  EXPECT_NO_THROW(check(o, 12, 6, 12));
   o.labels = {{7, 0}};
-  EXPECT_THROW(check(o, 12, 6), InvalidInput);
+  EXPECT_THROW(check(o, 12, 6, 12), InvalidInput);
+  const auto complains = [](const char* name, const char* text) {
+    try {
+      check(parse_options({{name, text}}), 12, 6, 12);
+    } catch (const InvalidInput& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(complains("divisions", "Edge13=2"), HasSubstr("Edge13 does not exist, the part has 12 edges"));
+  EXPECT_THAT(complains("divisions", "Face1-Face7=2"), HasSubstr("Face7 does not exist, the part has 6 faces"));
+  EXPECT_THAT(complains("sizes", "Face9=2"), HasSubstr("Face9"));
+  EXPECT_EQ(complains("sizes", "Face6=2"), "");
   EXPECT_DOUBLE_EQ(effective_size(MeshOptions{}, 60), 2);
 }
 

@@ -1,0 +1,125 @@
+#include "core/demands.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+constexpr std::string_view kAxes = "XYZ";
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The number of "Face3" where kind is "Face".
+std::optional<int> entity(std::string_view text, std::string_view kind) {
+  if (!text.starts_with(kind)) return std::nullopt;
+  const auto id = number<int>(text.substr(kind.size()));
+  return id && *id > 0 ? id : std::nullopt;
+}
+
+/// Calls read(left of '=', right of '=') for every item; false refuses it.
+template <class Read>
+void for_items(const std::string& flag, const std::string& text, const char* form, const Read& read) {
+  std::string dense = text;
+  std::erase(dense, ' ');
+  std::istringstream items(dense);
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto equals = item.find('=');
+    const std::string_view all = item;
+    if (equals == std::string::npos || !read(all.substr(0, equals), all.substr(equals + 1)))
+      throw InvalidInput(flag + ": '" + item + "' is not of the form " + form);
+  }
+}
+
+std::string face_name(int id) { return "Face" + std::to_string(id); }
+
+}  // namespace
+
+Divisions parse_divisions(const std::string& flag, const std::string& text) {
+  Divisions result;
+  for_items(flag, text, "Edge4=6 or Face1-Face2=3.. (3: exactly, 3..: at least, ..3: at most, 2..5: between)",
+            [&](std::string_view what, std::string_view count) {
+              Division d;
+              if (const auto edge = entity(what, "Edge")) {
+                d.edge = *edge;
+              } else {
+                const auto dash = what.find('-');
+                if (dash == std::string_view::npos) return false;
+                const auto a = entity(what.substr(0, dash), "Face"), b = entity(what.substr(dash + 1), "Face");
+                if (!a || !b) return false;
+                d.faces = {std::min(*a, *b), std::max(*a, *b)};
+              }
+              const auto dots = count.find("..");
+              const std::string_view low = count.substr(0, dots);
+              if (dots == std::string_view::npos) {
+                const auto exact = number<int>(count);
+                if (!exact) return false;
+                d.at_least = d.at_most = *exact;
+              } else {
+                const std::string_view high = count.substr(dots + 2);
+                if (low.empty() && high.empty()) return false;
+                const auto from = low.empty() ? std::optional<int>(1) : number<int>(low);
+                const auto to = high.empty() ? std::optional<int>(Division::kNoMaximum) : number<int>(high);
+                if (!from || !to) return false;
+                d.at_least = *from;
+                d.at_most = *to;
+              }
+              if (d.at_least < 1) throw InvalidInput(flag + ": there must be 1 element at least, not " + std::string(count));
+              if (d.at_most < d.at_least) throw InvalidInput(flag + ": " + std::string(what) + "=" + std::string(count) + " leaves no number");
+              if (d.at_least > 1'000'000) throw InvalidInput(flag + ": " + std::to_string(d.at_least) + " elements are too many");
+              result.push_back(d);
+              return true;
+            });
+  return result;
+}
+
+LocalSizes parse_local_sizes(const std::string& flag, const std::string& text) {
+  LocalSizes result;
+  for_items(flag, text, "Face3=0.5 or X=2", [&](std::string_view what, std::string_view value) {
+    LocalSize s;
+    if (const auto face = entity(what, "Face")) {
+      s.face = *face;
+    } else if (what.size() == 1 && kAxes.find(what[0]) != std::string_view::npos) {
+      s.axis = static_cast<int>(kAxes.find(what[0]));
+    } else {
+      return false;
+    }
+    const auto size = number<double>(value);
+    if (!size || !std::isfinite(*size)) return false;
+    if (!(*size > 0)) throw InvalidInput(flag + ": the size of " + std::string(what) + " must be greater than 0");
+    s.size = *size;
+    for (const LocalSize& other : result) {
+      if (other.face == s.face && other.axis == s.axis) throw InvalidInput(flag + ": " + std::string(what) + " is given twice");
+    }
+    result.push_back(s);
+    return true;
+  });
+  return result;
+}
+
+std::string text_of(const Division& d) {
+  const std::string what = d.edge > 0 ? "Edge" + std::to_string(d.edge) : face_name(d.faces[0]) + "-" + face_name(d.faces[1]);
+  if (d.at_least == d.at_most) return what + "=" + std::to_string(d.at_least);
+  if (d.at_most == Division::kNoMaximum) return what + "=" + std::to_string(d.at_least) + "..";
+  return what + "=" + (d.at_least > 1 ? std::to_string(d.at_least) : "") + ".." + std::to_string(d.at_most);
+}
+
+std::string text_of(const LocalSize& s) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, s.size).ptr;
+  return (s.face > 0 ? face_name(s.face) : std::string(1, kAxes[static_cast<std::size_t>(s.axis)])) + "=" + std::string(buffer, end);
+}
+
+}  // namespace polycube

@@ -1,0 +1,41 @@
+// What an engineer asks of single edges, walls, regions and directions.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace polycube {
+
+/// How many elements along a CAD edge, or between two CAD faces opposite each other.
+struct Division {
+  static constexpr int kNoMaximum = std::numeric_limits<int>::max();
+  int edge = 0;                  ///< CAD edge, or 0
+  std::array<int, 2> faces{};    ///< CAD faces, ascending, where edge is 0
+  int at_least = 1, at_most = kNoMaximum;
+  friend bool operator==(const Division&, const Division&) = default;
+};
+
+/// Another edge length of the hexahedra.
+struct LocalSize {
+  int face = 0;     ///< the blocks on this CAD face, or 0
+  int axis = 0;     ///< along the frame's axis 0, 1, 2 = X, Y, Z where face is 0
+  double size = 0;  ///< mm
+  friend bool operator==(const LocalSize&, const LocalSize&) = default;
+};
+
+using Divisions = std::vector<Division>;
+using LocalSizes = std::vector<LocalSize>;
+
+/// From text such as "Edge4=6,Face1-Face2=3..,Face3-Face5=..4,Edge7=2..5": exactly, at least, at most, between. Throws InvalidInput that
+/// starts with `flag`.
+Divisions parse_divisions(const std::string& flag, const std::string& text);
+/// From text such as "Face3=0.5,X=2".
+LocalSizes parse_local_sizes(const std::string& flag, const std::string& text);
+
+/// Text that is read back as the same.
+std::string text_of(const Division& division);
+std::string text_of(const LocalSize& size);
+
+}  // namespace polycube

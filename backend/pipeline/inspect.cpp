@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Cosine of the bend of a zigzag; a boundary along generators, CAD edges or 45 degree lines bends less.
-constexpr double kZigzag = 0.5;
+// Cosine of the bend of a zigzag, 35 degrees; a boundary along generators, CAD edges or 45 degree lines bends less.
+constexpr double kZigzag = 0.82;
 constexpr int kStrayTriangles = 4;
 
 double mean_edge(const TetMesh& mesh) {

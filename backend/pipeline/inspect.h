@@ -18,7 +18,7 @@ struct Inspection {
   std::vector<int> corners;             ///< points where three or more charts meet, ascending
   std::vector<int> bad_corners;         ///< those no polycube has
   std::vector<int> turning_points;      ///< where a boundary reverses along its axis
-  std::vector<int> zigzags;             ///< points inside a CAD face where a boundary bends by more than 60 degrees
+  std::vector<int> zigzags;             ///< points inside a CAD face where a boundary bends by more than 35 degrees
   std::vector<int> stray_charts;        ///< charts of at most 4 triangles, or of less than a square of 2 mean edges
 };
 

@@ -15,7 +15,7 @@ double tet_size(double size, double diagonal) { return std::clamp(size, diagonal
 
 }  // namespace
 
-LabelledPart label_part(const CadModel& model, const MeshOptions& given, const Monitor& monitor) {
+LabelledPart label_part(const CadModel& model, const MeshOptions& given, const Monitor& monitor, Until until) {
   LabelledPart part;
   auto start = Monitor::Clock::now();
   const auto book = [&](const std::string& name) {
@@ -40,16 +40,18 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
   part.features = find_features(pose.model, part.tets, part.labelling, options.feature_angle * std::numbers::pi / 180, monitor);
   book("label");
-  DeformOptions deform_options;
-  deform_options.merge = 0.02 * size;
-  try {
-    RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
-    part.map = std::move(realised.map);
-    part.flipped = realised.report.flipped;
-  } catch (const StageFailed& e) {
-    part.failure = e;
+  if (until == Until::kMap) {
+    DeformOptions deform_options;
+    deform_options.merge = 0.02 * size;
+    try {
+      RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
+      part.map = std::move(realised.map);
+      part.flipped = realised.report.flipped;
+    } catch (const StageFailed& e) {
+      part.failure = e;
+    }
+    book("deform");
   }
-  book("deform");
   for (Vec3& p : part.tets.points) p = pose.back(p);
   part.labelling.frame = pose.user_frame;
   for (int& l : part.labelling.label) l = pose.user_label(l);

@@ -21,11 +21,14 @@ struct LabelledPart {
   PolycuboidMap map;                 ///< empty where there is none
   int flipped = 0;                   ///< tets without positive volume in the image
   std::optional<StageFailed> failure;  ///< why there is no map
-  std::vector<StageRecord> stages;     ///< tet, label, deform
+  std::vector<StageRecord> stages;     ///< tet, label and, with a map, deform
 };
 
-/// Throws as the pipeline does up to the labels; labels without a map are handed out, to see what is wrong with them. All in the part's own place and the
+enum class Until { kLabels, kMap };
+
+/// Throws as the pipeline does up to the labels; labels without a map are handed out, to see what is wrong with
+/// them. `until` kLabels leaves the map out, which takes most of the time. All in the part's own place and the
 /// user's axes.
-LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor);
+LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor, Until until = Until::kMap);
 
 }  // namespace polycube

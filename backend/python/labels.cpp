@@ -11,11 +11,14 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
               const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
+  int face_count = 0;
   const LabelledPart part = run_released(callbacks, options, [&] {
     const CadModel model = read_model(path, brep);
     check(options, model.diagonal(), model.face_count(), model.edge_count());
-    return label_part(model, options, callbacks.monitor);
+    face_count = model.face_count();
+    return label_part(model, options, callbacks.monitor, Until::kLabels);
   });
+  const Inspection inspection = inspect(part);
   py::array_t<double> frame({3, 3});
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) frame.mutable_at(i, k) = part.labelling.frame(i, k);

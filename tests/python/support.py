@@ -22,6 +22,12 @@ def box():
     return Part.makeBox(8, 2, 2)
 
 
+def chamfered():
+    """A block with a chamfer between its +X and +Z faces."""
+    block = Part.makeBox(8, 4, 4)
+    return block.makeChamfer(1.5, [edge for edge in block.Edges if edge.BoundBox.XMin > 7.9 and edge.BoundBox.ZMin > 3.9])
+
+
 def cylinder():
     return Part.makeCylinder(5, 10)
 

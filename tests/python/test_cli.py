@@ -1,16 +1,23 @@
 """The command line: exit statuses, messages, files, cancel."""
 
 import collections
+import colorsys
 import json
 import os
 import random
 import signal
 import subprocess
+import sys
 import time
 import unittest
 
+import matplotlib
+import meshio
 import numpy as np
-from support import PROGRAM, VECTOR, FolderTest, FreeCAD, Part, box, cylinder, plate
+from support import PROGRAM, REPO, VECTOR, FolderTest, FreeCAD, Part, box, chamfered, cylinder, plate
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
 
 
 class Cli(FolderTest):
@@ -131,10 +138,80 @@ class Cli(FolderTest):
         self.assertEqual(error, "polycube: cancelled\n")
         self.assertEqual(os.listdir(self.folder), ["part.brep"])
 
-    def test_label(self):
-        run = self.run_program("label", self.save(cylinder()), "-o", self.path("l.vtu"))
+    def test_label_files(self):
+        part = self.save(cylinder())
+        run = self.run_program("label", part, "-o", self.path("l.vtu"), "-o", self.path("l.png"), "--report", self.path("l.json"), "--pixels", "400", "--numbers")
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertRegex(run.stdout, "valid, 0 turning points, 6 charts, 8 corners, CAD edges 2 on boundaries 0 with feature charts 0 not captured")
+        with open(self.path("l.json")) as file:
+            report = json.load(file)
+        self.assertEqual((report["valid"], report["monotone"], report["map"]), (True, True, "made"))
+        self.assertEqual(report["edges"], {"total": 2, "boundary": 2, "feature": 0, "lost": []})
+        self.assertEqual(sorted(report["faces"]), ["Face1", "Face2", "Face3"])
+        self.assertEqual([stage["name"] for stage in report["stages"]], ["tet", "label", "deform"])
+        grid = meshio.read(self.path("l.vtu"))
+        data = {name: np.concatenate([np.ravel(block) for block in blocks]) for name, blocks in grid.cell_data.items()}
+        triangles = data["kind"] == 0
+        self.assertEqual(set(data["label"][triangles]), set(range(6)))
+        self.assertEqual(set(data["chart"][triangles]), set(range(6)))
+        self.assertEqual(set(data["face"][triangles]), {1, 2, 3})
+        self.assertEqual((data["kind"] == 5).sum(), 8)
+        # Charts are planes of the map.
+        for label, chart in {(a, b) for a, b in zip(data["label"][triangles], data["chart"][triangles])}:
+            nodes = np.unique(grid.cells_dict["triangle"][data["chart"][triangles] == chart])
+            self.assertLess(np.ptp(grid.point_data["g"][nodes, label // 2]), 1e-9 * np.ptp(grid.points))
+
+    def test_label_picture(self):
+        self.assertEqual(self.run_program("label", self.save(box()), "-o", self.path("l.png"), "--pixels", "400").returncode, 0)
+        image = pyplot.imread(self.path("l.png"))
+        self.assertEqual(image.shape[1], 400)
+        # Each of the six labels covers a part of the picture that is not the key at its top.
+        body = np.round(255 * image[20:, :, :3]).reshape(-1, 3)
+        hues = [colorsys.rgb_to_hsv(*(c / 255 for c in colour))[0] for colour in ((236, 106, 94), (90, 200, 205), (118, 196, 92), (214, 122, 208), (100, 140, 235), (240, 205, 90))]
+        found = np.array([colorsys.rgb_to_hsv(*(pixel / 255))[0] for pixel in body if np.ptp(pixel) > 60])
+        for hue in hues:
+            self.assertGreater((np.abs(found - hue) < 0.02).sum(), 500)
+
+    def test_label_refuses(self):
+        part = self.save(box())
+        for arguments in (["-o", self.path("l.stl")], ["-o", self.path("none/l.png")], ["--pixels", "5"], ["--frame", "1,0,0"], ["--frame", "1,0,0/1,0,0"],
+                          ["--label", "Face1=+X", "--frame", "1,0,0/0,1,0"], ["--label", "Face1=+Y"]):
+            with self.subTest(arguments):
+                run = self.run_program("label", part, *arguments)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+        self.assertEqual(os.listdir(self.folder), ["part.brep"])
+
+    def test_steering(self):
+        part = self.save(chamfered())
+        (face,) = (f"Face{i}" for i, face in enumerate(chamfered().Faces, 1) if abs(face.normalAt(0, 0).x) > 0.1 and abs(face.normalAt(0, 0).z) > 0.1)
+        for axis in ("+X", "+Z"):
+            run = self.run_program("label", part, "--label", f"{face}={axis}", "--report", self.path("l.json"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(self.path("l.json")) as file:
+                self.assertEqual(json.load(file)["faces"][face], axis)
+        # In a frame with X and Z exchanged the same face has the other name.
+        run = self.run_program("mesh", part, "-o", self.path("a.inp"), "--frame", "0,0,1/0,-1,0", "--label", f"{face}=-Y")
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, f"{face} cannot be -Y, it does not face that way; it can be \\+X or \\+Z")
+        run = self.run_program("mesh", part, "-o", self.path("a.inp"), "--frame=-1,0,0/0,-1,0", "--label", f"{face}=-X", "--order", "1")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertTrue(os.path.getsize(self.path("l.vtu")) > 1000)
+
+    def test_page_of_labels(self):
+        self.save(box(), "one.brep")
+        self.save(cylinder(), "two.brep")
+        script = os.path.join(REPO, "tests", "benchmarks", "label_page.py")
+        for page in ("page.html", "page.png"):
+            run = subprocess.run([sys.executable, script, PROGRAM, self.folder, "-o", self.path(page), "--", "--pixels", "200"], capture_output=True, text=True)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertIn("2 parts: 2 labelled, 2 valid, 2 valid and monotone; of 14 CAD edges 14 are chart boundaries", run.stdout)
+        with open(self.path("page.html")) as file:
+            self.assertEqual(file.read().count("<img"), 2)
+        self.assertEqual(pyplot.imread(self.path("page.png")).ndim, 3)
+        with open(self.path("three.brep"), "w") as file:
+            file.write("nothing")
+        run = subprocess.run([sys.executable, script, PROGRAM, self.path("three.brep")], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 1)
 
 
 class Documents(FolderTest):

@@ -5,7 +5,7 @@ import pickle
 import unittest
 
 import numpy as np
-from support import FolderTest, box, cylinder, plate
+from support import VECTOR, FolderTest, box, chamfered, cylinder, plate
 
 import _polycube
 
@@ -18,7 +18,7 @@ class Options(unittest.TestCase):
         self.assertLessEqual({"size", "hexes", "coarsest", "order", "time_limit", "element_type", "labels", "threads"}, set(table))
         for option in table.values():
             self.assertEqual(set(option), {"name", "unit", "meaning", "type", "default", "min", "max", "choices", "advanced"})
-            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels"))
+            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame"))
         self.assertEqual(table["order"]["default"], 2)
 
     def test_bad_options_are_named(self):
@@ -148,6 +148,39 @@ class Labels(unittest.TestCase):
         self.assertEqual(sorted(labels["face_label"].values()), [0, 1, 2, 3, 4, 5])
         self.assertEqual(len(labels["label"]), len(labels["triangles"]))
         np.testing.assert_allclose(labels["frame"] @ labels["frame"].T, np.eye(3), atol=1e-12)
+        self.assertTrue(labels["valid"])
+        self.assertEqual(labels["chart"].max(), 5)
+        self.assertEqual((len(labels["corners"]), len(labels["turning_points"])), (8, 0))
+        self.assertEqual(labels["edges"], {edge: ("boundary", "") for edge in range(1, 13)})
+
+    def test_names_and_colours(self):
+        self.assertEqual(_polycube.LABEL_NAMES, ["+X", "-X", "+Y", "-Y", "+Z", "-Z"])
+        self.assertEqual(len(set(_polycube.LABEL_COLOURS)), 6)
+
+    def test_a_label_given_by_hand(self):
+        part = chamfered()
+        (chamfer,) = (i for i, face in enumerate(part.Faces, 1) if abs(face.normalAt(0, 0).x) > 0.1 and abs(face.normalAt(0, 0).z) > 0.1)
+        text = part.exportBrepToString()
+        for key, axis, label in (("Face{}".format(chamfer), "+X", 0), (chamfer, "+Z", 4)):
+            labels = _polycube.labels(brep=text, labels={key: axis})
+            self.assertEqual(set(labels["label"][labels["triangle_face"] == chamfer]), {label})
+        for call in (_polycube.labels, _polycube.mesh):
+            with self.assertRaises(_polycube.InvalidInput) as caught:
+                call(brep=text, labels={chamfer: "-X"})
+            self.assertRegex(str(caught.exception), "Face{} cannot be -X.*it can be \\+X or \\+Z".format(chamfer))
+
+    def test_frame(self):
+        text = box().exportBrepToString()
+        for frame in (((0, 2, 0), (-1, 0, 0)), [np.array([0, 1.0, 0]), VECTOR(-3, 0, 0)], "0,1,0/-1,0,0"):
+            found = _polycube.labels(brep=text, frame=frame)
+            np.testing.assert_allclose(found["frame"], [[0, 1, 0], [-1, 0, 0], [0, 0, 1]], atol=1e-12)
+            for face, label in found["face_label"].items():
+                normal = found["frame"] @ np.array(box().Faces[face - 1].normalAt(0, 0))
+                self.assertAlmostEqual(normal[label // 2] * (1 - 2 * (label % 2)), 1)
+        for bad in (((1, 0, 0), (1, 1, 0)), ((1, 0, 0),), ((1, 0), (0, 1)), (1, 0, 0), "x", 5, (("a", 0, 0), (0, 1, 0)), ((0, 0, 0), (0, 1, 0)), ((math.nan, 0, 0), (0, 1, 0))):
+            with self.subTest(bad), self.assertRaises((_polycube.InvalidInput, ValueError)) as caught:
+                _polycube.labels(brep=text, frame=bad)
+            self.assertNotIn("\n", str(caught.exception))
 
 
 if __name__ == "__main__":

@@ -299,6 +299,7 @@ void check(const MeshOptions& options) {
   }
   if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1)
     throw InvalidInput("give only one of --size, --hexes and --coarsest");
+  if (options.coarsest && !options.sizes.empty()) throw InvalidInput("--coarsest leaves no room for --sizes");
   if (!options.element_type.empty() && order_of(options.element_type) != options.order)
     throw InvalidInput("--element-type " + options.element_type + " is of order " + std::to_string(order_of(options.element_type)) +
                        ", but --order " + std::to_string(options.order) + " is asked for");

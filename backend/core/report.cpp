@@ -115,7 +115,9 @@ std::string to_json(const MeshReport& report) {
   json["cad"] = {{"vertices", {{"total", c.vertices}, {"captured", c.vertices_captured}, {"lost", names(0, c.lost_vertices)}}},
                  {"edges", {{"total", c.edges}, {"captured", c.edges_captured}, {"lost", names(1, c.lost_edges)}}},
                  {"faces", {{"total", c.faces}, {"captured", c.faces_captured}, {"lost", names(2, c.lost_faces)}}}};
-  json["quantization"] = {{"objective", report.quantization_objective}, {"bound", report.quantization_bound}};
+  const QuantizationRecord& q = report.quantization;
+  json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
+                          {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};
   json["warnings"] = report.warnings;
   return json.dump(2) + "\n";
 }

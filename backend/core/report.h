@@ -29,6 +29,13 @@ struct CadCapture {
   std::vector<int> lost_vertices, lost_edges, lost_faces;   ///< ascending
 };
 
+/// The quantization's proof: no other integers have an objective below the bound.
+struct QuantizationRecord {
+  double objective = 0, bound = 0, gap = 0;  ///< gap: (objective - bound) / objective
+  bool optimal = false;
+  int nodes = 0, cuts = 0, c2_rounds = 0;    ///< of the search tree; C2 constraints met; solutions checked against C2
+};
+
 struct MeshReport {
   std::string version;
   MeshOptions options;
@@ -41,7 +48,7 @@ struct MeshReport {
   double cad_volume = 0;                ///< mm^3
   std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most 20
   CadCapture capture;
-  double quantization_objective = 0, quantization_bound = 0;
+  QuantizationRecord quantization;
   int padded_hexes = 0;                 ///< cells that padding added
   int straightened_edges = 0;           ///< second order: curved edges left straight because curving would invert a cell
   std::vector<std::string> warnings;    ///< one line each

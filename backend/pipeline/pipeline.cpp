@@ -19,6 +19,7 @@
 #include "label/label.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
+#include "pipeline/demands.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "quantize/quantize.h"
@@ -214,9 +215,10 @@ class Run {
     const Structure& s = structure(c);
     MeshResult result;
     result.report = report_;
-    QuantizeOptions quantize_options;
-    quantize_options.scale = options_.coarsest ? kCoarsest : c.refine / size_;
-    const Quantization quantization = stage("quantize", [&] { return quantize(s.blocks, s.map, quantize_options, monitor_); });
+    const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
+    const Quantization quantization = stage("quantize", [&] {
+      return quantize(s.blocks, s.map, quantize_options(model_, s.tets, s.map, s.blocks, options_, scale), monitor_);
+    });
     HexComplex complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, quantization, monitor_); });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
 
@@ -231,8 +233,9 @@ class Run {
     PaddedMesh padded = capture_and_fit(s, complex, std::move(associate_options), c.give_up ? kRelaxRounds : 0, result.report);
     result.report.charts = static_cast<int>(s.map.charts.size());
     result.report.blocks = static_cast<int>(s.blocks.blocks.size());
-    result.report.quantization_objective = quantization.objective;
-    result.report.quantization_bound = quantization.bound;
+    const Quantization& q = quantization;
+    result.report.quantization = {q.objective, q.bound, q.gap(), q.optimal, q.nodes, q.cuts, q.c2_rounds};
+    if (!q.optimal) result.report.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
     result.report.tets = static_cast<int>(s.tets.tets.size());
     if (c.refine != 1) result.report.warnings.push_back(c.refine > 1 ? "the cells are finer than asked for" : "the cells are coarser than asked for");
     finish(result, std::move(padded));
@@ -357,6 +360,7 @@ class Run {
       if (!model_.edge(e).seam && !model_.edge(e).degenerate) real.push_back(e);
     }
     r.capture = capture(result.association, model_.vertex_count(), real, model_.face_count());
+    for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
     for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
   }
 

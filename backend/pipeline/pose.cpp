@@ -100,6 +100,10 @@ MeshOptions Pose::posed(const MeshOptions& options) const {
   if (result.size > 0) result.size = nine_digits(result.size * scale);
   for (auto& [face, label] : result.labels) label = posed_label(label);
   result.frame.clear();
+  for (LocalSize& s : result.sizes) {
+    s.size = nine_digits(s.size * scale);
+    if (s.face == 0) s.axis = static_cast<int>(std::find(axis.begin(), axis.end(), s.axis) - axis.begin());
+  }
   return result;
 }
 

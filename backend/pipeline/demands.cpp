@@ -1,0 +1,273 @@
+#include "pipeline/demands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "core/error.h"
+#include "core/hexahedron.h"
+#include "label/features.h"
+
+namespace polycube {
+namespace {
+
+template <class Row>
+Row sorted(Row row) {
+  std::sort(row.begin(), row.end());
+  return row;
+}
+
+/// Per block and side the CAD faces there, ascending.
+using SideFaces = std::vector<std::array<std::vector<int>, 6>>;
+
+SideFaces find_side_faces(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& complex) {
+  std::map<Triangle, int> triangle_at;
+  for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) triangle_at[sorted(tets.triangles[t])] = t;
+  std::vector<int> chart_of(tets.triangles.size(), -1);
+  for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
+    for (int t : map.charts[c].triangles) chart_of[t] = c;
+  }
+  SideFaces result(complex.blocks.size());
+  for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
+    const Block& block = complex.blocks[b];
+    for (int tet : block.tets) {
+      for (int k = 0; k < 4; ++k) {
+        Triangle facet;
+        for (int i = 0, n = 0; i < 4; ++i) {
+          if (i != k) facet[n++] = tets.tets[tet][i];
+        }
+        const auto at = triangle_at.find(sorted(facet));
+        if (at == triangle_at.end()) continue;
+        const auto side = std::find(block.side_chart.begin(), block.side_chart.end(), chart_of[at->second]) - block.side_chart.begin();
+        if (side == 6) continue;
+        // A tet that only reaches into the block has its triangle elsewhere.
+        const Vec3 centre = (map.image[facet[0]] + map.image[facet[1]] + map.image[facet[2]]) / 3;
+        bool inside = true;
+        for (int d = 0; d < 3; ++d) {
+          if (d == side / 2) continue;
+          inside &= centre[d] >= map.charts[block.charts[d][0]].value && centre[d] <= map.charts[block.charts[d][1]].value;
+        }
+        if (inside) result[b][static_cast<std::size_t>(side)].push_back(tets.triangle_face[at->second]);
+      }
+    }
+    for (auto& faces : result[b]) {
+      std::sort(faces.begin(), faces.end());
+      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    }
+  }
+  return result;
+}
+
+DistanceConstraint constraint(const PolycuboidMap& map, int a, int b, int at_least, int at_most, const std::string& name) {
+  if (map.charts[a].value > map.charts[b].value) std::swap(a, b);
+  return {a, b, at_least, at_most, name};
+}
+
+void divide_wall(const Division& division, const SideFaces& side_faces, const PolycuboidMap& map, const BlockComplex& complex,
+                 std::vector<DistanceConstraint>& constraints) {
+  std::set<std::array<int, 2>> pairs;
+  for (int b = 0; b < static_cast<int>(complex.blocks.size()); ++b) {
+    for (int d = 0; d < 3; ++d) {
+      if (complex.blocks[b].neighbours[2 * d] >= 0) continue;
+      int last = b;
+      while (complex.blocks[last].neighbours[2 * d + 1] >= 0) last = complex.blocks[last].neighbours[2 * d + 1];
+      const auto has = [&](int block, int side, int face) {
+        const auto& faces = side_faces[block][side];
+        return std::binary_search(faces.begin(), faces.end(), face);
+      };
+      const auto [one, other] = division.faces;
+      if ((has(b, 2 * d, one) && has(last, 2 * d + 1, other)) || (has(b, 2 * d, other) && has(last, 2 * d + 1, one))) {
+        pairs.insert({complex.blocks[b].charts[d][0], complex.blocks[last].charts[d][1]});
+      }
+    }
+  }
+  if (pairs.empty()) {
+    throw StageFailed("quantize", "the faces of division " + text_of(division) + " are nowhere opposite each other",
+                      {{2, division.faces[0]}, {2, division.faces[1]}});
+  }
+  for (const auto& [low, high] : pairs) {
+    constraints.push_back(constraint(map, low, high, division.at_least, division.at_most, text_of(division)));
+  }
+}
+
+/// A stretch of a CAD edge along one axis of the map, from one chart or feature to another.
+struct Run {
+  int axis, from, to;  ///< charts
+  double length;
+};
+
+/// Empty where the edge does not run from chart to chart along the axes.
+std::vector<Run> find_runs(const std::vector<int>& chain, const std::vector<std::array<std::vector<int>, 3>>& charts_at,
+                           const PolycuboidMap& map, const BlockComplex& complex) {
+  const auto unknown_at = [&](int node, int axis) {
+    for (int c : charts_at[node][axis]) {
+      if (complex.unknown[c] >= 0) return complex.unknown[c];
+    }
+    return -1;
+  };
+  const auto held = [&](int a, int b, int axis) {
+    const auto &at_a = charts_at[a][axis], &at_b = charts_at[b][axis];
+    return std::any_of(at_a.begin(), at_a.end(), [&](int c) { return std::find(at_b.begin(), at_b.end(), c) != at_b.end(); });
+  };
+  if (chain.size() < 2) return {};
+  const std::size_t count = chain.size() - 1;
+  std::vector<int> along(count, -1);  // per segment: the axis that it runs along
+  for (std::size_t i = 0; i < count; ++i) {
+    double most = 0;
+    for (int d = 0; d < 3; ++d) {
+      const double step = std::abs(map.image[chain[i + 1]][d] - map.image[chain[i]][d]);
+      if (held(chain[i], chain[i + 1], d) || step <= most) continue;
+      most = step;
+      along[i] = d;
+    }
+  }
+  // A closed edge starts anywhere: the runs start at a turn.
+  std::size_t first = 0;
+  if (chain.front() == chain.back()) {
+    while (first < count && along[first] == along[(first + count - 1) % count]) ++first;
+    if (first == count) return {};
+  }
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < count;) {
+    const int axis = along[(first + i) % count];
+    const int from_node = chain[(first + i) % count];
+    for (; i < count && (along[(first + i) % count] == axis || along[(first + i) % count] < 0); ++i) {}
+    const int to_node = chain[(first + i - 1) % count + 1];
+    if (axis < 0) continue;
+    const int from = unknown_at(from_node, axis), to = unknown_at(to_node, axis);
+    if (from < 0 || to < 0) return {};
+    if (from != to) runs.push_back({axis, from, to, std::abs(map.charts[to].value - map.charts[from].value)});
+  }
+  return runs;
+}
+
+void divide_edge(const Division& division, const std::vector<Run>& runs, const PolycuboidMap& map, std::vector<DistanceConstraint>& constraints) {
+  const int count = static_cast<int>(runs.size());
+  if (count == 0) {
+    throw StageFailed("quantize", "the grid does not follow the edge of division " + text_of(division), {{1, division.edge}});
+  }
+  if (division.at_most < count) {
+    throw StageFailed("quantize", "division " + text_of(division) + ": the edge takes " + std::to_string(count) + " turns of the grid, it needs as many elements",
+                      {{1, division.edge}});
+  }
+  double whole = 0;
+  for (const Run& run : runs) whole += run.length;
+  // Both numbers are shared out by length; one element for every run at least.
+  double passed = 0;
+  int least_before = 0, most_before = 0;
+  for (int i = 0; i < count; ++i) {
+    passed += runs[i].length;
+    const auto share = [&](int all, int before) {
+      const int end = static_cast<int>(std::lround(all * passed / whole));
+      return std::clamp(end, before + 1, std::max(before + 1, all - (count - 1 - i)));
+    };
+    const int least = share(division.at_least, least_before);
+    const bool bounded = division.at_most != Division::kNoMaximum;
+    const int most = bounded ? share(division.at_most, most_before) : 0;
+    const int at_least = std::min(least - least_before, bounded ? most - most_before : least - least_before);
+    constraints.push_back(constraint(map, runs[i].from, runs[i].to, at_least, bounded ? most - most_before : Division::kNoMaximum, text_of(division)));
+    least_before = least;
+    most_before = most;
+  }
+}
+
+}  // namespace
+
+QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
+                                 const MeshOptions& options, double scale) {
+  QuantizeOptions result;
+  result.scale = scale;
+  result.min_layers = options.min_layers;
+  if (options.divisions.empty() && options.sizes.empty()) return result;
+  const SideFaces side_faces = find_side_faces(tets, map, blocks);
+  const auto chains = edge_chains(model, tets);
+  std::vector<std::array<std::vector<int>, 3>> charts_at(tets.points.size());
+  for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
+    for (int n : map.charts[c].nodes) charts_at[n][map.charts[c].axis].push_back(c);
+  }
+  for (const Division& d : options.divisions) {
+    if (d.edge > 0) {
+      divide_edge(d, find_runs(chains[d.edge], charts_at, map, blocks), map, result.constraints);
+    } else {
+      divide_wall(d, side_faces, map, blocks, result.constraints);
+    }
+  }
+  for (const LocalSize& s : options.sizes) {
+    if (s.face == 0) {
+      result.axis_scale[s.axis] = 1 / (s.size * scale);
+      continue;
+    }
+    result.block_scale.resize(blocks.blocks.size(), 1);
+    for (std::size_t b = 0; b < blocks.blocks.size(); ++b) {
+      const auto on_face = [&](const std::vector<int>& faces) { return std::binary_search(faces.begin(), faces.end(), s.face); };
+      // Of several faces the finest size wins.
+      if (std::any_of(side_faces[b].begin(), side_faces[b].end(), on_face)) {
+        double& factor = result.block_scale[b];
+        factor = factor == 1 ? 1 / (s.size * scale) : std::max(factor, 1 / (s.size * scale));
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<std::string> unmet_divisions(const HexMesh& mesh, const Association& association, const Divisions& divisions) {
+  std::vector<std::string> lines;
+  if (divisions.empty()) return lines;
+  const auto complain = [&](const Division& d, std::size_t found) {
+    lines.push_back("division " + text_of(d) + ": the mesh has " + std::to_string(found) + " elements there");
+  };
+  // Columns of cells from boundary quad to boundary quad.
+  std::map<std::array<int, 4>, std::vector<std::array<int, 2>>> cells;  // hex, side
+  std::map<std::array<int, 4>, int> quad_at;
+  for (int h = 0; h < static_cast<int>(mesh.hexes.size()); ++h) {
+    for (int side = 0; side < 6; ++side) {
+      std::array<int, 4> face;
+      for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[h][kHexFaces[side][k]];
+      cells[sorted(face)].push_back({h, side});
+    }
+  }
+  for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) quad_at[sorted(association.quads[q])] = q;
+  const auto on = [&](int quad, int face) {
+    const auto& faces = association.patches[association.quad_patch[quad]];
+    return std::binary_search(faces.begin(), faces.end(), face);
+  };
+  for (const Division& d : divisions) {
+    if (d.edge > 0) {
+      const auto found = static_cast<std::size_t>(std::count(association.segment_edge.begin(), association.segment_edge.end(), d.edge));
+      if (found < static_cast<std::size_t>(d.at_least) || found > static_cast<std::size_t>(d.at_most)) complain(d, found);
+      continue;
+    }
+    std::optional<std::size_t> wrong;
+    bool any = false;
+    for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
+      if (!on(q, d.faces[0])) continue;
+      auto key = sorted(association.quads[q]);
+      std::size_t length = 0;
+      int hex = -1;
+      for (;;) {
+        const auto& behind = cells.at(key);
+        const auto next = std::find_if(behind.begin(), behind.end(), [&](const auto& cell) { return cell[0] != hex; });
+        if (next == behind.end() || length > mesh.hexes.size()) break;
+        hex = (*next)[0];
+        ++length;
+        std::array<int, 4> face;
+        for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[hex][kHexFaces[(*next)[1] ^ 1][k]];
+        key = sorted(face);
+      }
+      const auto end = quad_at.find(key);
+      if (end == quad_at.end() || !on(end->second, d.faces[1])) continue;
+      any = true;
+      if (length < static_cast<std::size_t>(d.at_least) || length > static_cast<std::size_t>(d.at_most)) wrong = length;
+    }
+    if (!any) {
+      complain(d, 0);
+    } else if (wrong) {
+      complain(d, *wrong);
+    }
+  }
+  return lines;
+}
+
+}  // namespace polycube

@@ -1,0 +1,19 @@
+// Layers, divisions and local sizes (MeshOptions) as constraints of the quantization, and whether the mesh has them.
+#pragma once
+
+#include "blocks/blocks.h"
+#include "cad/cad.h"
+#include "core/options.h"
+#include "quantize/quantize.h"
+
+namespace polycube {
+
+/// `options` in the pose of the map; `scale`: cells per unit of the map. Throws StageFailed("quantize", ...) naming the entities when these
+/// blocks cannot keep a demand: faces that are nowhere opposite each other, an edge that does not run along the axes.
+QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
+                                 const MeshOptions& options, double scale);
+
+/// One line per division that the mesh does not have (padding adds cells where it must).
+std::vector<std::string> unmet_divisions(const HexMesh& mesh, const Association& association, const Divisions& divisions);
+
+}  // namespace polycube

@@ -13,10 +13,10 @@ import traceback
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
-from femtools import ccxtools
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import bracket  # noqa: E402  (beside this file)
+import calculix  # noqa: E402
 from freecad import polycube  # noqa: E402
 
 OUT = os.environ["POLYCUBE_DEMO_OUT"]
@@ -34,15 +34,7 @@ def set_up(document):
     named = bracket.faces(part.Shape)
     say("Part: {} CAD faces, {:.1f} cm3".format(len(part.Shape.Faces), part.Shape.Volume / 1000))
 
-    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    solver = analysis.addObject(ObjectsFem.makeSolverCalculixCcxTools(document, "Solver"))[0]
-    solver.AnalysisType = "static"
-    steel = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
-    values = steel.Material
-    values.update({"Name": "S235", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.30", "Density": "7850 kg/m^3"})
-    steel.Material = values
-    support = analysis.addObject(ObjectsFem.makeConstraintFixed(document, "Support"))[0]
-    support.References = [(part, name) for name in named["bottom"]]
+    analysis, solver = calculix.make_analysis(part, named["bottom"])
     force = analysis.addObject(ObjectsFem.makeConstraintForce(document, "Pull"))[0]
     force.References = [(part, name) for name in named["loads"]]
     force.Force = FORCE
@@ -53,26 +45,6 @@ def set_up(document):
     pressure.Pressure = PRESSURE
     document.recompute()
     return part, analysis, solver
-
-
-def solve(analysis, solver):
-    """Runs CalculiX; returns (path of the input file, result object)."""
-    folder = os.path.join(OUT, "calculix")
-    os.makedirs(folder, exist_ok=True)
-    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
-    fea.update_objects()
-    fea.setup_working_dir(folder)
-    fea.setup_ccx()
-    trouble = fea.check_prerequisites()
-    if trouble:
-        raise RuntimeError(trouble)
-    fea.write_inp_file()
-    fea.ccx_run()
-    fea.load_results()
-    results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]
-    if not results:
-        raise RuntimeError("CalculiX gave no result")
-    return fea.inp_file_name, results[0]
 
 
 def fit(view):
@@ -128,7 +100,7 @@ def main():
     say("CAD captured: " + ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")))
     say("Volume: mesh {:.0f} mm3, CAD {:.0f} mm3".format(report["volume"]["mesh"], report["volume"]["cad"]))
 
-    path, result = solve(analysis, solver)
+    path, result = calculix.solve(analysis, solver, os.path.join(OUT, "calculix"))
     displacement, stress = max(result.DisplacementLengths), max(result.vonMises)
     say("CalculiX: maximum displacement {:.4f} mm, maximum von Mises stress {:.1f} MPa".format(displacement, stress))
 

@@ -103,6 +103,50 @@ class MeshArrays(unittest.TestCase):
         return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-job-")}
 
 
+class Labels(unittest.TestCase):
+    """Labels to look at, and those that the user sets."""
+
+    @classmethod
+    def setUpClass(cls):
+        block = Part.makeBox(40, 20, 20)
+        cls.shape = block.makeChamfer(6, [edge for edge in block.Edges if edge.BoundBox.XMin > 39 and edge.BoundBox.ZMin > 19])
+        normals = [face.normalAt(0, 0) for face in cls.shape.Faces]
+        cls.chamfer = next(number for number, normal in enumerate(normals, 1) if normal.x > 0.1 and normal.z > 0.1)
+        cls.left = next(number for number, normal in enumerate(normals, 1) if normal.x < -0.9)
+
+    def test_arrays(self):
+        labels = polycube.labels(self.shape)
+        self.assertTrue(labels.valid)
+        self.assertEqual((labels.chart.max(), len(labels.turning_points), len(labels.corners)), (5, 0, 8))
+        self.assertEqual(labels.face_label[self.left], 1)
+        self.assertEqual(labels.possible(self.left), [1])
+        self.assertEqual(labels.possible(self.chamfer), [0, 4])
+        self.assertIn("6 charts", repr(labels))
+
+    def test_given_labels_are_obeyed(self):
+        for key, axis, label in (("Face{}".format(self.chamfer), "+X", 0), (self.chamfer, "+Z", 4)):
+            labels = polycube.labels(self.shape, labels={key: axis})
+            self.assertEqual(set(labels.label[labels.triangle_face == self.chamfer]), {label})
+
+    def test_what_cannot_be_is_refused(self):
+        for call in (polycube.labels, polycube.mesh):
+            with self.assertRaises(polycube.InvalidInput) as caught:
+                call(self.shape, labels={self.left: "+X"})
+            self.assertEqual(
+                str(caught.exception), "labels: Face{} cannot be +X, it does not face that way; it can be -X".format(self.left)
+            )
+
+    def test_frame(self):
+        for frame in (((0, 1, 0), (-1, 0, 0)), [Vector(0, 2, 0), Vector(-1, 0, 0)]):
+            labels = polycube.labels(self.shape, frame=frame)
+            self.assertEqual(labels.frame.round(12).tolist(), [[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
+            self.assertEqual(labels.face_label[self.left], 2)
+        for bad in (((1, 0, 0), (1, 1, 0)), 3, (1, 2)):
+            with self.assertRaises(polycube.InvalidInput) as caught:
+                polycube.labels(self.shape, frame=bad)
+            self.assertTrue(str(caught.exception).startswith("frame"))
+
+
 class Invariance(unittest.TestCase):
     """A part turned, moved and scaled gives the same cells."""
 
@@ -328,7 +372,7 @@ class FemMeshObject(DocumentTest):
                 name = objects.option_table.property_name(option)
                 self.assertTrue(hasattr(obj, name), name)
         self.assertEqual(objects.option_table.read(obj), {})
-        given = {"size": 4.0, "order": 1, "labels": {"Face3": "+X"}}
+        given = {"size": 4.0, "order": 1, "labels": {"Face3": "+X"}, "frame": [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]}
         objects.option_table.write(obj, given)
         self.assertEqual(objects.option_table.read(obj), given)
 

@@ -248,6 +248,108 @@ class Panel(GuiTest):
         self.assertEqual(obj.MeshState, objects.OUTDATED)
 
 
+class AxesOfFaces(GuiTest):
+    """The preview of the labels, and the axes that a click gives to faces."""
+
+    def setUp(self):
+        super().setUp()
+        self.chamfered = self.document.addObject("Part::Feature", "Chamfered")
+        block = Part.makeBox(60, 40, 30).cut(Part.makeCylinder(8, 30, FreeCAD.Vector(20, 20, 0)))
+        edge = next(edge for edge in block.Edges if edge.BoundBox.XMin > 59 and edge.BoundBox.ZMin > 29)
+        self.chamfered.Shape = block.makeChamfer(10, [edge])
+        self.document.recompute()
+        faces = self.chamfered.Shape.Faces
+        self.chamfer = next(number for number, face in enumerate(faces, 1) if face.normalAt(0, 0).x > 0.1 and face.normalAt(0, 0).z > 0.1)
+        self.bore = next(number for number, face in enumerate(faces, 1) if face.Surface.TypeId == "Part::GeomCylinder")
+        self.box.ViewObject.hide()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+        self.panel = self.open_panel(self.chamfered)
+
+    def settle(self):
+        self.assertTrue(wait_until(lambda: not self.panel.process))
+
+    def click(self, face):
+        """As the 3D view tells of a click."""
+        FreeCADGui.Selection.addSelection(self.document.Name, self.chamfered.Name, "Face{}".format(face))
+        process_events(0.2)
+        self.settle()
+
+    def shown(self, face):
+        labels = self.panel.shown_labels
+        return {int(label) for label in labels.label[labels.triangle_face == face]}
+
+    def children_of_scene(self):
+        return FreeCADGui.activeDocument().activeView().getSceneGraph().getNumChildren()
+
+    def test_clicks_go_through_the_axes(self):
+        before = self.children_of_scene()
+        self.panel.form.preview.setChecked(True)
+        self.settle()
+        self.assertEqual(self.children_of_scene(), before + 1)
+        self.assertTrue(self.panel.shown_labels.valid)
+        (automatic,) = self.shown(self.chamfer)
+        self.assertIn(automatic, (0, 4))
+        picture("labels-automatic")
+        other = 4 - automatic
+        self.click(self.chamfer)
+        self.assertEqual(self.panel.labels, {"Face{}".format(self.chamfer): {0: "+X", 4: "+Z"}[other]})
+        self.assertEqual(self.shown(self.chamfer), {other})
+        self.assertEqual(FreeCADGui.Selection.getSelectionEx(), [], "a click must not leave a selection")
+        picture("labels-by-hand")
+        self.click(self.chamfer)
+        self.assertEqual(self.shown(self.chamfer), {automatic})
+        self.assertEqual(len(self.panel.labels), 1)
+        self.click(self.chamfer)
+        self.assertEqual(self.panel.labels, {})
+        self.click(self.bore)
+        self.assertEqual(self.panel.labels, {})
+        self.assertIn("Face{} turns too far".format(self.bore), self.panel.form.log.toPlainText())
+        self.panel.form.preview.setChecked(False)
+        self.assertEqual(self.children_of_scene(), before)
+        self.click(self.chamfer)
+        self.assertEqual(self.panel.labels, {}, "without the preview clicks select as ever")
+        self.press("Cancel")
+
+    def test_axes_reach_mesh_and_properties(self):
+        self.panel.form.preview.setChecked(True)
+        self.settle()
+        self.click(self.chamfer)
+        wanted = dict(self.panel.labels)
+        self.assertEqual([self.panel.form.given_labels.item(0).text()], ["{}={}".format(*item) for item in wanted.items()])
+        self.panel.form.element_size.setProperty("rawValue", 6.0)
+        self.press("Apply")
+        self.settle()
+        self.assertIsNotNone(self.panel.obj, self.panel.form.log.toPlainText())
+        self.assertFalse(self.panel.form.preview.isChecked(), "the mesh takes the place of the preview")
+        self.assertIsNone(self.panel.overlay)
+        self.assertEqual(list(self.panel.obj.Labels), ["{}={}".format(*item) for item in wanted.items()])
+        self.assertEqual(self.panel.obj.MeshState, objects.CURRENT)
+        self.panel.form.automatic.click()
+        self.assertEqual(self.panel.form.given_labels.count(), 0)
+        self.press("Ok")
+        self.assertEqual(list(self.panel.obj.Labels), [])
+        self.assertEqual(self.panel.obj.MeshState, objects.OUTDATED)
+
+    def test_a_real_click_in_the_view(self):
+        self.panel.form.preview.setChecked(True)
+        self.settle()
+        view = FreeCADGui.activeDocument().activeView()
+        face = self.chamfered.Shape.Faces[self.chamfer - 1]
+        x, y = view.getPointOnScreen(face.CenterOfMass)
+        hit = view.getObjectInfo((x, y))
+        self.assertEqual((hit["Object"], hit["Component"]), (self.chamfered.Name, "Face{}".format(self.chamfer)), "the preview lets clicks through")
+
+    def test_a_panel_that_is_gone_takes_no_clicks(self):
+        before = self.children_of_scene()
+        self.panel.form.preview.setChecked(True)
+        self.settle()
+        FreeCADGui.Control.closeDialog()
+        process_events()
+        self.assertEqual(self.children_of_scene(), before)
+        self.click(self.chamfer)
+        self.assertEqual(self.panel.labels, {})
+
+
 class RefusedShapes(GuiTest):
     def test_two_solids_open_a_message_and_no_panel(self):
         two = self.document.addObject("Part::Feature", "Two")

@@ -3,12 +3,13 @@
     from freecad import polycube
     result = polycube.mesh(shape_or_object, size=5, order=2)      # arrays and report, no document needed
     obj = polycube.create_fem_mesh(part_object, size=5)           # a FEM mesh object in the part's document
+    labels = polycube.labels(shape_or_object)                     # the polycube's axis of every piece of the boundary
 
 Works in FreeCAD and freecadcmd; nothing here needs a window. The work itself runs in a child process.
 FreeCAD imports this package at start, so it imports nothing heavy.
 """
 
-from .api import create_fem_mesh, mesh, options, update_fem_mesh
+from .api import create_fem_mesh, labels, mesh, options, update_fem_mesh
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 
 __version__ = "0.1.0"
@@ -18,6 +19,7 @@ __all__ = [
     "PolycubeError",
     "StageFailed",
     "create_fem_mesh",
+    "labels",
     "mesh",
     "options",
     "update_fem_mesh",

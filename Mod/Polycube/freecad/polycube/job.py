@@ -19,9 +19,10 @@ _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
 
 
 class Job:
-    """A folder with shape and options, ready to run; close() removes it."""
+    """A folder with shape and options, ready to run; close() removes it. `what` is to be made of them: "mesh" or "labels"."""
 
-    def __init__(self, shape, options):
+    def __init__(self, shape, options, what="mesh"):
+        self.what = what
         self.folder = tempfile.mkdtemp(prefix="polycube-job-")
         with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
             file.write(shape.exportBrepToString())
@@ -39,7 +40,7 @@ class Job:
 
     def command(self):
         """Program and arguments of the child process."""
-        return [engine.python(), os.path.join(engine.HERE, "worker.py"), self.folder]
+        return [engine.python(), os.path.join(engine.HERE, "worker.py"), self.folder, self.what]
 
     @staticmethod
     def parse(line):
@@ -54,9 +55,9 @@ class Job:
             return "log", line
 
     def finish(self, status, last_words=""):
-        """The MeshResult of a child that ended with `status`, or one of the errors. `last_words`: end of its standard error."""
+        """The MeshResult or LabelResult of a child that ended with `status`, or one of the errors. `last_words`: end of its standard error."""
         if status == 0:
-            return result.load(self.folder)
+            return result.load(self.folder) if self.what == "mesh" else result.load_labels(self.folder)
         path = os.path.join(self.folder, "error.json")
         if os.path.exists(path):
             with open(path, encoding="utf-8") as file:

@@ -99,7 +99,21 @@ def state(obj):
     return OUTDATED
 
 
-class PolycubeMesh:
+class Stateless:
+    """A proxy that keeps nothing of its own in the document: all is in properties."""
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    # FreeCAD 0.20's names for dumps and loads
+    __getstate__ = dumps
+    __setstate__ = loads
+
+
+class PolycubeMesh(Stateless):
     """Proxy of the mesh object. Recompute never meshes: it marks the mesh as out of date."""
 
     Type = "Fem::FemMeshPolycube"
@@ -136,13 +150,3 @@ class PolycubeMesh:
             self._add_properties(obj)
         except ImportError as error:
             FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, error))
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    # FreeCAD 0.20's names for dumps and loads
-    __getstate__ = dumps
-    __setstate__ = loads

@@ -51,7 +51,7 @@ def add_properties(obj):
         elif option["type"] == "string" and option["choices"]:
             setattr(obj, name, option["choices"])
             setattr(obj, name, default)
-        elif option["type"] == "labels":
+        elif option["type"] in ("labels", "frame"):
             setattr(obj, name, [])
         elif option["type"] == "int":
             setattr(obj, name, (default, int(option["min"]), int(min(option["max"], 2**31 - 1)), 1))
@@ -64,7 +64,12 @@ def _property_type(option):
         return "App::PropertyEnumeration"
     if option["type"] == "double":
         return _UNITS.get(option["unit"], "App::PropertyFloat")
-    kinds = {"int": "App::PropertyIntegerConstraint", "bool": "App::PropertyBool", "labels": "App::PropertyStringList"}
+    kinds = {
+        "int": "App::PropertyIntegerConstraint",
+        "bool": "App::PropertyBool",
+        "labels": "App::PropertyStringList",
+        "frame": "App::PropertyVectorList",
+    }
     return kinds.get(option["type"], "App::PropertyString")
 
 
@@ -77,6 +82,8 @@ def read(obj):
             value = _ORDERS.index(value) + 1
         elif option["type"] == "labels":
             value = _labels(value)
+        elif option["type"] == "frame":
+            value = [list(axis) for axis in value]
         elif option["type"] == "double":
             value = float(getattr(value, "Value", value))
         if value != option["default"] and value != {}:
@@ -93,12 +100,16 @@ def write(obj, options):
             value = _ORDERS[value - 1]
         elif option["type"] == "labels":
             value = ["{}={}".format(face if isinstance(face, str) else "Face{}".format(face), axis) for face, axis in dict(value or {}).items()]
+        elif option["type"] == "frame":
+            value = [tuple(axis) for axis in value]
         if _current(obj, option) != value:
             setattr(obj, property_name(option), value)
 
 
 def _current(obj, option):
     value = getattr(obj, property_name(option))
+    if option["type"] == "frame":
+        return [tuple(axis) for axis in value]
     return value.Value if hasattr(value, "Value") else value
 
 

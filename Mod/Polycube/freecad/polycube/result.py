@@ -1,4 +1,4 @@
-"""The mesh as arrays, as it comes out of the child process."""
+"""Mesh and labels as arrays, as they come out of the child process."""
 
 import json
 import os
@@ -29,6 +29,54 @@ class MeshResult:
         quality = self.report["quality"]["min_scaled_jacobian"]
         return "<MeshResult: {} hexahedra of order {}, {} nodes, min scaled Jacobian {:.3f}>".format(
             len(self.hexes), self.order, len(self.nodes), quality
+        )
+
+
+@dataclass(repr=False)
+class LabelResult:
+    """Which of six axis directions each piece of the boundary takes in the polycube. Indices are 0-based."""
+
+    points: object  #: (n, 3) float64, mm
+    triangles: object  #: (t, 3) int32, the boundary
+    triangle_face: object  #: (t,) int32, CAD face: 3 is Face3
+    label: object  #: (t,) int32: 0 to 5 are +X -X +Y -Y +Z -Z of the frame
+    chart: object  #: (t,) int32: connected triangles of one label have one number
+    frame: object  #: (3, 3) float64, rows are the axes
+    corners: object  #: points where three or more charts meet
+    turning_points: object  #: points where the border of a chart reverses
+    valid: bool  #: whether the labels are those of a polycube, by the published rules
+    face_label: dict  #: {3: 0}: the label that covers most of Face3
+    edges: dict  #: {5: ("lost", "the map folds there")}: "boundary" of a chart, "feature" inside one, or "lost", with the reason
+
+    def possible(self, face):
+        """Labels that the whole of CAD face number `face` can have: some of it faces that way and nothing of it the other way."""
+        import numpy
+
+        a, b, c = (self.points[self.triangles[self.triangle_face == face, k]] for k in range(3))
+        normals = numpy.cross(b - a, c - a) @ self.frame.T
+        normals /= numpy.linalg.norm(normals, axis=1, keepdims=True)
+        cosines = numpy.stack([normals, -normals], axis=2).reshape(-1, 6)
+        # the engine's rule: within 85 degrees somewhere, beyond 100 nowhere
+        return [label for label in range(6) if cosines[:, label].max() > 0.087 and cosines[:, label].min() > -0.174]
+
+    def __repr__(self):
+        return "<LabelResult: {} charts, {}, {} turning points>".format(
+            self.chart.max() + 1, "valid" if self.valid else "not valid", len(self.turning_points)
+        )
+
+
+def load_labels(folder):
+    """The LabelResult that the worker left in a job folder."""
+    import numpy
+
+    with open(os.path.join(folder, "labels.json"), encoding="utf-8") as file:
+        plain = json.load(file)
+    with numpy.load(os.path.join(folder, "labels.npz"), allow_pickle=False) as arrays:
+        return LabelResult(
+            valid=plain["valid"],
+            face_label={int(face): label for face, label in plain["face_label"].items()},
+            edges={int(edge): tuple(fate) for edge, fate in plain["edges"].items()},
+            **{name: arrays[name] for name in arrays.files},
         )
 
 

@@ -8,7 +8,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import api, engine, fem_mesh, job, objects, option_table, resources, shapes
+from . import api, engine, fem_mesh, job, label_view, objects, option_table, resources, shapes
 from .errors import Cancelled, PolycubeError, StageFailed
 from .histogram import COLOURS, Histogram
 
@@ -52,7 +52,15 @@ class MeshPanel:
         self.process = self.job = None
         self.started = 0.0
         self.options = option_table.read(obj) if obj else {}
+        self.labels = dict(self.options.get("labels", {}))  # set by hand: {"Face3": "+X"}
+        self.overlay = self.clicks = self.shown_labels = None
+        self._automatic_labels = {}  # of faces before they were set by hand, as far as is known
+        self._labels_are_old = False
         self._meshed_options = {}
+        self.form.label_key.setText(label_view.key())
+        self.form.preview.toggled.connect(self._preview)
+        self.form.destroyed.connect(self._end_preview)  # FreeCAD can close the panel without a word
+        self.form.automatic.clicked.connect(self._automatic)
         self._show_parameters()
         self._show_quality()
 
@@ -92,15 +100,19 @@ class MeshPanel:
             self.log("The mesher is running already.", error=True)
             return
         self.form.log.clear()
-        self.started = time.monotonic()
         self.obj = self.obj if _exists(self.obj) else None
         self._meshed_options = self._parameters()
+        self._start("mesh", self._meshed_options, "Meshing")
+
+    def _start(self, what, options, message):
+        """Starts the child process that makes "mesh" or "labels"; _finished takes what it made."""
+        self.started = time.monotonic()
         try:
             if not _exists(self.part):
                 raise PolycubeError("there is no part to mesh")
             shape = shapes.shape_of(self.part)
             shapes.check_solid(shape)
-            self.job = job.Job(shape, self._meshed_options)
+            self.job = job.Job(shape, options, what)
             program, *arguments = self.job.command()
             environment = engine.environment(self.job.folder)
         except (PolycubeError, ImportError, OSError) as error:
@@ -120,7 +132,7 @@ class MeshPanel:
         self.process.errorOccurred.connect(self._not_started)
         MeshPanel._running = self
         self.form.parameters.setEnabled(False)
-        self.log("Meshing {} ...".format(self.part.Label))
+        self.log("{} {} ...".format(message, self.part.Label))
         self.timer.start()
         self.process.start(program, arguments)
 
@@ -164,7 +176,8 @@ class MeshPanel:
         try:
             if self.cancelled:
                 raise Cancelled("cancelled")
-            self._take(self.job.finish(status, self._err))
+            made = self.job.finish(status, self._err)
+            (self._take if self.job.what == "mesh" else self._show_labels)(made)
         except StageFailed as error:
             self.log(str(error), error=True)
             self._select(error.entities)
@@ -173,6 +186,8 @@ class MeshPanel:
         finally:
             self._close_job()
         self.form.progress.setFormat("%p%")
+        if self._labels_are_old and self.form.preview.isChecked():
+            self._update_labels()
 
     def _take(self, result):
         """Puts the mesh into the document, in one undo step."""
@@ -190,6 +205,7 @@ class MeshPanel:
                 warnings = objects.set_mesh(self.obj, result, self._meshed_options)
         finally:
             QtGui.QApplication.restoreOverrideCursor()
+        self.form.preview.setChecked(False)
         self.form.colours.setChecked(False)
         self.form.progress.setValue(100)
         for line in warnings:
@@ -206,12 +222,91 @@ class MeshPanel:
 
     def _close(self):
         self._clear_marks()
+        self._end_preview()
         gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None
         if gui_document and gui_document.getInEdit():
             gui_document.resetEdit()
         else:
             FreeCADGui.Control.closeDialog()
         return True
+
+    # --- axes of faces -------------------------------------------------------------------------------------------------------
+
+    def _preview(self, wanted):
+        """Begins or ends to show the labels on the part."""
+        self.form.label_key.setVisible(wanted)
+        if not wanted:
+            self._end_preview()
+        elif _exists(self.part):
+            self.part.ViewObject.show()
+            if _exists(self.obj):
+                self.obj.ViewObject.hide()
+            self.overlay = label_view.LabelOverlay(self.part.Document)
+            self.clicks = label_view.FaceClicks(self.part, self.face_clicked)
+            self._update_labels()
+
+    def _end_preview(self, *_):
+        if self.clicks:
+            self.clicks.remove()
+        if self.overlay and self.document_name in FreeCAD.listDocuments():
+            self.overlay.remove()
+        self.clicks = self.overlay = self.shown_labels = None
+
+    def _update_labels(self):
+        """Computes the labels anew, after what runs now."""
+        self._labels_are_old = True
+        if not self.process:
+            self._labels_are_old = False
+            self._start("labels", self._parameters(), "Labelling")
+
+    def _show_labels(self, labels):
+        self.shown_labels = labels
+        self.form.progress.setValue(100)
+        if self.overlay:
+            self.overlay.show(labels)
+        lost = sum(fate == "lost" for fate, _ in labels.edges.values())
+        self.log(
+            "{} charts, {}, {} turning points, {} CAD edges not captured.".format(
+                labels.chart.max() + 1, "valid" if labels.valid else "not valid", len(labels.turning_points), lost
+            )
+        )
+
+    def face_clicked(self, face):
+        """The next of the axes that the face can have, or automatic again."""
+        if not self.shown_labels:
+            return
+        names = engine.load().LABEL_NAMES
+        name = "Face{}".format(face)
+        possible = self.shown_labels.possible(face)
+        given = names.index(self.labels[name]) if name in self.labels else None
+        if given is None:
+            self._automatic_labels[face] = self.shown_labels.face_label[face]
+        label = label_view.next_label(given, self._automatic_labels.get(face), possible)
+        if not possible:
+            self.log("{} turns too far for any one axis.".format(name), error=True)
+            return
+        if label is None:
+            del self.labels[name]
+        else:
+            self.labels[name] = names[label]
+        self.log("{}: {}".format(name, "automatic" if label is None else names[label]))
+        self._labels_changed()
+
+    def _automatic(self):
+        chosen = [item.text().split("=")[0] for item in self.form.given_labels.selectedItems()] or list(self.labels)
+        for name in chosen:
+            del self.labels[name]
+        if chosen:
+            self._labels_changed()
+
+    def _labels_changed(self):
+        self._list_labels()
+        if self.form.preview.isChecked():
+            self._update_labels()
+
+    def _list_labels(self):
+        self.form.given_labels.clear()
+        self.form.given_labels.addItems(["{}={}".format(*item) for item in sorted(self.labels.items(), key=lambda item: int(item[0][4:]))])
 
     # --- what the panel shows -----------------------------------------------------------------------------------------------
 
@@ -230,6 +325,7 @@ class MeshPanel:
         self.form.element_size.setProperty("rawValue", self.options.get("size", 0.0))
         self.form.hexes.setValue(self.options.get("hexes", 0))
         self.form.order.setCurrentIndex(self.options.get("order", 2) - 1)
+        self._list_labels()
         if self.part and not self.part.Shape.isNull():
             automatic = self.part.Shape.BoundBox.DiagonalLength / 30
             length = FreeCAD.Units.Quantity(automatic, FreeCAD.Units.Length).UserString
@@ -242,6 +338,7 @@ class MeshPanel:
             "size": float(self.form.element_size.property("rawValue")),
             "hexes": self.form.hexes.value(),
             "order": self.form.order.currentIndex() + 1,
+            "labels": dict(self.labels),
         }
         defaults = {option["name"]: option["default"] for option in option_table.table()}
         for name, value in shown.items():

@@ -8,7 +8,7 @@ from . import objects, resources
 _ICONS = {objects.EMPTY: "Polycube_MeshEmpty", objects.CURRENT: "Polycube_MeshFromShape", objects.OUTDATED: "Polycube_MeshOutOfDate"}
 
 
-class PolycubeMeshView:
+class PolycubeMeshView(objects.Stateless):
     """View provider of the mesh object."""
 
     def __init__(self, view):
@@ -64,13 +64,3 @@ class PolycubeMeshView:
         question = "{} is the mesh of {}. Delete it?".format(view.Object.Label, analysis.Label)
         buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
         return QtGui.QMessageBox.warning(window, "Hexahedral mesh", question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    # FreeCAD 0.20's names for dumps and loads
-    __getstate__ = dumps
-    __setstate__ = loads

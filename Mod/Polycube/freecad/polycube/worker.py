@@ -1,7 +1,7 @@
-"""The child process: meshes one job folder and exits. Run as `python3 worker.py FOLDER`, without FreeCAD.
+"""The child process: meshes or labels one job folder and exits. Run as `python3 worker.py FOLDER mesh|labels`, without FreeCAD.
 
-The folder holds shape.brep and options.json; afterwards result.npz and report.json, or error.json. Standard output carries one JSON object per
-line: {"progress": [stage, fraction]} or {"log": line}. Exit status: 0 mesh written, 1 invalid input, 2 a stage failed, 3 cancelled.
+The folder holds shape.brep and options.json; afterwards result.npz and report.json, or labels.npz and labels.json, or error.json. Standard output carries one JSON object per
+line: {"progress": [stage, fraction]} or {"log": line}. Exit status: 0 done, 1 invalid input, 2 a stage failed, 3 cancelled.
 """
 
 import json
@@ -40,17 +40,30 @@ def flatten(mesh):
     return arrays
 
 
-def run(folder):
+def save_mesh(folder, mesh):
+    mesh = mesh.to_dict()
+    write_json(os.path.join(folder, "report.json"), mesh["report"])
+    numpy.savez(os.path.join(folder, "result.npz"), **flatten(mesh))
+
+
+def save_labels(folder, labels):
+    plain = {name: labels.pop(name) for name in ("valid", "face_label", "edges")}
+    write_json(os.path.join(folder, "labels.json"), plain)
+    numpy.savez(os.path.join(folder, "labels.npz"), **labels)
+
+
+def run(folder, what):
     polycube = engine.load()
     parent = os.getppid()
+    work, save = {"mesh": (polycube.mesh, save_mesh), "labels": (polycube.labels, save_labels)}[what]
     try:
-        mesh = polycube.mesh(
+        made = work(
             brep=read(os.path.join(folder, "shape.brep")),
             progress=lambda stage, fraction: say(progress=[stage, fraction]),
             log=lambda line: say(log=line),
             cancel=lambda: os.getppid() != parent,  # nobody waits for the mesh of a FreeCAD that is gone
             **json.loads(read(os.path.join(folder, "options.json"))),
-        ).to_dict()
+        )
     except polycube.InvalidInput as error:
         # The engine writes options as on the command line, --time-limit; here they are time_limit.
         message = re.sub(r"--([a-z][a-z-]*)", lambda option: option.group(1).replace("-", "_"), str(error))
@@ -63,12 +76,11 @@ def run(folder):
     except polycube.Cancelled as error:
         write_json(os.path.join(folder, "error.json"), {"kind": "Cancelled", "message": str(error)})
         return 3
-    write_json(os.path.join(folder, "report.json"), mesh["report"])
-    numpy.savez(os.path.join(folder, "result.npz"), **flatten(mesh))
+    save(folder, made)
     return 0
 
 
 if __name__ == "__main__":
     if hasattr(os, "setsid"):
         os.setsid()  # a group of its own, so that one kill reaches the processes started from here
-    sys.exit(run(sys.argv[1]))
+    sys.exit(run(*sys.argv[1:]))

@@ -1,0 +1,117 @@
+"""The labels of a part in the 3D view, in six colours, and the clicks that change them."""
+
+import FreeCADGui
+from pivy import coin
+from PySide import QtCore
+
+from . import engine
+
+#: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the view's depth.
+_FACES_FORWARD, _LINES_FORWARD = 2e-5, 1e-4
+
+
+def key():
+    """The six colours with their names, as rich text."""
+    polycube = engine.load()
+    pairs = zip(polycube.LABEL_NAMES, polycube.LABEL_COLOURS)
+    return "&nbsp;&nbsp;".join('<span style="color:rgb{}">&#9632;</span>&nbsp;{}'.format(tuple(colour), name) for name, colour in pairs)
+
+
+def _depth(forward):
+    depth = coin.SoDepthBuffer()
+    depth.range.setValue(coin.SbVec2f(0.0, 1.0 - forward))
+    return depth
+
+
+class LabelOverlay:
+    """Coloured triangles over the part in the active 3D view. Clicks go through to the part."""
+
+    def __init__(self, document):
+        self._root = FreeCADGui.getDocument(document.Name).activeView().getSceneGraph()
+        self._node = coin.SoSeparator()
+        self._root.addChild(self._node)
+
+    def show(self, labels):
+        """Draws a LabelResult: charts in their labels' colours, borders of charts black, turning points red."""
+        self._node.removeAllChildren()
+        unpickable = coin.SoPickStyle()
+        unpickable.style = coin.SoPickStyle.UNPICKABLE
+        points = coin.SoCoordinate3()
+        points.point.setValues(0, len(labels.points), labels.points.tolist())
+        for child in (unpickable, points, _depth(_FACES_FORWARD), *self._faces(labels), _depth(_LINES_FORWARD), *self._borders(labels)):
+            self._node.addChild(child)
+
+    @staticmethod
+    def _faces(labels):
+        paint = coin.SoMaterial()
+        paint.diffuseColor.setValues(0, 6, [tuple(channel / 255 for channel in colour) for colour in engine.load().LABEL_COLOURS])
+        binding = coin.SoMaterialBinding()
+        binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
+        hints = coin.SoShapeHints()
+        hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+        hints.creaseAngle = 0.4
+        faces = coin.SoIndexedFaceSet()
+        indices = [index for triangle in labels.triangles.tolist() for index in (*triangle, -1)]
+        faces.coordIndex.setValues(0, len(indices), indices)
+        faces.materialIndex.setValues(0, len(labels.label), labels.label.tolist())
+        return hints, paint, binding, faces
+
+    @staticmethod
+    def _borders(labels):
+        light = coin.SoLightModel()
+        light.model = coin.SoLightModel.BASE_COLOR
+        ink = coin.SoBaseColor()
+        ink.rgb = (0.05, 0.05, 0.05)
+        binding = coin.SoMaterialBinding()
+        binding.value = coin.SoMaterialBinding.OVERALL
+        style = coin.SoDrawStyle()
+        style.lineWidth, style.pointSize = 2.5, 9
+        beside, indices = {}, []
+        for triangle, chart in zip(labels.triangles.tolist(), labels.chart.tolist()):
+            for a, b in zip(triangle, triangle[1:] + triangle[:1]):
+                if beside.setdefault((min(a, b), max(a, b)), chart) != chart:
+                    indices += [a, b, -1]
+        lines = coin.SoIndexedLineSet()
+        lines.coordIndex.setValues(0, len(indices), indices)
+        red = coin.SoBaseColor()
+        red.rgb = (0.86, 0.08, 0.12)
+        turning = coin.SoIndexedPointSet()
+        turning.coordIndex.deleteValues(0)  # the default is one point
+        turning.coordIndex.setValues(0, len(labels.turning_points), labels.turning_points.tolist())
+        return light, ink, binding, style, lines, red, turning
+
+    def remove(self):
+        self._root.removeChild(self._node)
+
+
+class FaceClicks:
+    """Calls `clicked(number)` for every face of the part that is clicked in the 3D view, and takes the selection back."""
+
+    def __init__(self, part, clicked):
+        self._names = (part.Document.Name, part.Name)
+        self._clicked = clicked
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addObserver(self)
+
+    def addSelection(self, document, name, element, position):
+        if (document, name) != self._names or not element.startswith("Face"):
+            return
+        face = int(element[len("Face"):])
+        # FreeCAD is in the middle of selecting.
+        QtCore.QTimer.singleShot(0, lambda: self._take(face))
+
+    def _take(self, face):
+        FreeCADGui.Selection.clearSelection()
+        self._clicked(face)
+
+    def remove(self):
+        FreeCADGui.Selection.removeObserver(self)
+
+
+def next_label(given, automatic, possible):
+    """What the next click on a face makes of it: None (automatic), then the possible labels, those first that change something.
+
+    `given`: the label set by hand or None; `automatic`: the one the face has by itself, as far as is known.
+    """
+    order = [None] + [label for label in possible if label != automatic] + [label for label in possible if label == automatic]
+    return order[(order.index(given) + 1) % len(order)] if given in order else None

@@ -1,0 +1,40 @@
+"""A static analysis of a steel part, solved by CalculiX; shared by the demo and the tests."""
+
+import os
+
+import ObjectsFem
+from femtools import ccxtools
+
+
+def make_analysis(part, fixed):
+    """Analysis in the part's document with steel and fixed faces (names); returns (analysis, solver)."""
+    document = part.Document
+    analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+    solver = analysis.addObject(ObjectsFem.makeSolverCalculixCcxTools(document, "Solver"))[0]
+    solver.AnalysisType = "static"
+    steel = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
+    values = steel.Material
+    values.update({"Name": "S235", "YoungsModulus": "210000 MPa", "PoissonRatio": "0.30", "Density": "7850 kg/m^3"})
+    steel.Material = values
+    support = analysis.addObject(ObjectsFem.makeConstraintFixed(document, "Support"))[0]
+    support.References = [(part, name) for name in fixed]
+    return analysis, solver
+
+
+def solve(analysis, solver, folder):
+    """Writes the input file, runs CalculiX in `folder` and loads the results; returns (path of the input file, result object)."""
+    os.makedirs(folder, exist_ok=True)
+    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
+    fea.update_objects()
+    fea.setup_working_dir(folder)
+    fea.setup_ccx()
+    trouble = fea.check_prerequisites()
+    if trouble:
+        raise RuntimeError(trouble)
+    fea.write_inp_file()
+    fea.ccx_run()
+    fea.load_results()
+    results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]
+    if not results:
+        raise RuntimeError("CalculiX gave no result")
+    return fea.inp_file_name, results[0]

@@ -122,7 +122,8 @@ struct MeshCommand : PartCommand {
     result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
 
     const auto fem_start = Monitor::Clock::now();
-    const FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, monitor);
+    FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, monitor);
+    fem.hex_block = result.hex_block;
     result.report.stages.push_back({"fem", seconds_since(fem_start)});
     result.report.nodes = static_cast<int>(fem.points.size());
     result.report.straightened_edges = fem.straightened;
@@ -183,10 +184,11 @@ struct HexCommand {
     command.add_option("--tets", tets, "Tetrahedra, Medit .mesh")->required();
     command.add_option("--labels", labels, "Labels of the tets' facets")->required();
     command.add_option("--map", map, "Image of the tetrahedra, Medit .mesh")->required();
-    command.add_option("-o,--output", output, "Hexahedra, Medit .mesh")->required();
+    command.add_option("-o,--output", output, "Hexahedra: .mesh (Medit), or .vtu with the block of every cell")->required();
     command.add_option("--scale", scale, "Edge length of the hexahedra over the mean tet edge in the map; 0: coarsest")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e6));
+    command.add_flag("--subdivide", subdivide, "Subdivide the coarsest mesh to this scale: its cells are the blocks");
     command.add_option("--report", report, "Write a report as JSON");
     command.add_option("--problem", problem, "Write the quantization problem as JSON, to compare solvers");
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
@@ -198,8 +200,13 @@ struct HexCommand {
     const PolycuboidInput input = read_polycuboid(tets, labels, map);
     HexMapOptions options;
     options.quantize.scale = scale;
+    options.subdivide = subdivide;
     const HexMapResult result = hex_map(input, options, monitor);
-    write_medit(output, result.hexes);
+    if (output.ends_with(".vtu")) {
+      write_vtu(output, result.hexes, result.hex_cell);
+    } else {
+      write_medit(output, result.hexes);
+    }
     if (!report.empty()) write_text(report, report_json(input, result));
     if (!problem.empty()) write_text(problem, problem_json(input, result));
     std::printf("%s: %zu blocks, %zu hexahedra, objective %g, bound %g, %.1f s\n", output.c_str(), result.blocks.blocks.size(),
@@ -209,6 +216,7 @@ struct HexCommand {
   CLI::App& command;
   std::string tets, labels, map, output, report, problem;
   double scale = 1;
+  bool subdivide = false;
   bool verbose = false;
 };
 

@@ -23,6 +23,7 @@ struct FemMesh {
   int corner_count = 0;                         ///< points before this one are corners, the others mid-edge nodes
   std::vector<Vec3> points;                     ///< mm
   std::vector<std::array<int, 20>> hexes;
+  std::vector<int> hex_block;                   ///< per hex: the block that it is part of; may be empty
   std::vector<std::array<int, 8>> quads;        ///< all boundary faces, outward
   std::vector<int> quad_face;                   ///< per quad: CAD face
   std::vector<std::array<int, 2>> quad_hex;     ///< per quad: its hex, and the hex's face 0 to 5 as Abaqus' S1 to S6

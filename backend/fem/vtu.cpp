@@ -1,4 +1,4 @@
-// VTK unstructured grid: hexes, boundary quads; per cell the scaled Jacobian and the CAD face (0 inside). Arrays in base64.
+// VTK unstructured grid: hexes, boundary quads; per cell the scaled Jacobian, the CAD face (0 inside) and the block. Arrays in base64.
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -71,6 +71,11 @@ std::string vtu_text(const FemMesh& mesh) {
   text += "</Cells>\n<CellData>\n";
   append_array(text, "Float64", "Name=\"ScaledJacobian\"", quality);
   append_array(text, "Int32", "Name=\"CadFace\"", faces);
+  if (!mesh.hex_block.empty()) {
+    std::vector<std::int32_t> blocks(mesh.hex_block.begin(), mesh.hex_block.end());
+    for (const auto& quad : mesh.quad_hex) blocks.push_back(mesh.hex_block[quad[0]]);
+    append_array(text, "Int32", "Name=\"Block\"", blocks);
+  }
   text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text;
 }

@@ -93,6 +93,7 @@ Connectivity connect(const PolycuboidMap& map, const BlockComplex& complex, cons
         hex[c] = node_at(b, {at[0] + k[0], at[1] + k[1], at[2] + k[2]});
       }
       hexes.mesh.hexes.push_back(hex);
+      hexes.hex_block.push_back(b);
     });
   }
   for (int b = 0; b < block_count; ++b) {
@@ -178,6 +179,24 @@ Connectivity connect(const PolycuboidMap& map, const BlockComplex& complex, cons
       }
     }
     result.places[fill[m.node]++] = place;
+  }
+  return result;
+}
+
+std::vector<int> coarse_cells(const BlockComplex& complex, const std::vector<int>& coarse, const std::vector<int>& value) {
+  const Lattice cells(complex, coarse), parts(complex, value);
+  std::vector<int> result;
+  int first = 0;  // cell of the block
+  for (int b = 0; b < static_cast<int>(complex.blocks.size()); ++b) {
+    if (!parts.solid(b)) continue;
+    const auto &n = cells.extent(b), &m = parts.extent(b);
+    if (!cells.solid(b)) throw InvalidInput("the integers do not keep the structure of the coarser ones");
+    for_box({m[0] - 1, m[1] - 1, m[2] - 1}, [&](const std::array<int, 3>& at) {
+      std::array<int, 3> cell;
+      for (int d = 0; d < 3; ++d) cell[d] = at[d] * n[d] / m[d];
+      result.push_back(first + (cell[0] * n[1] + cell[1]) * n[2] + cell[2]);
+    });
+    first += n[0] * n[1] * n[2];
   }
   return result;
 }

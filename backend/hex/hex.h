@@ -8,6 +8,7 @@ namespace polycube {
 struct HexComplex {
   HexMesh mesh;                 ///< points: first geometry, g^-1 of h^-1
   std::vector<Vec3> param;      ///< per node: its place in the image of g
+  std::vector<int> hex_block;   ///< per hex: its block; ascending
   std::vector<Quad> quads;      ///< boundary quads, outward
   std::vector<int> quad_chart;  ///< per quad: the chart it lies on
   std::vector<int>
@@ -15,6 +16,10 @@ struct HexComplex {
   std::vector<int> node_feature_first;  ///< CSR over nodes into node_features
   std::vector<int> node_features;       ///< features (chart indices with sign 0) on whose plane sheet the node lies, ascending
 };
+
+/// Of a mesh whose integers keep the structure of coarser ones (QuantizeOptions::structure): per hex the cell of the coarser mesh that it is
+/// part of, numbered as build_hexes numbers them.
+std::vector<int> coarse_cells(const BlockComplex& blocks, const std::vector<int>& coarse, const std::vector<int>& value);
 
 /// Throws StageFailed("hex", ...) when the result is not a valid mesh of the solid (integers that do not satisfy C1 and C2).
 HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization,

@@ -10,6 +10,7 @@
 #include "core/charts.h"
 #include "core/error.h"
 #include "core/quality.h"
+#include "fem/fem.h"
 #include "quantize/monotone.h"
 #include "quantize/problem.h"
 
@@ -154,21 +155,69 @@ double mean_edge(const PolycuboidInput& input) {
   return sum / static_cast<double>(edges.size());
 }
 
+namespace {
+
+Quantization coarsest(const BlockComplex& blocks, const PolycuboidMap& map, QuantizeOptions options, const Monitor& monitor) {
+  options.scale = 0;
+  return quantize(blocks, map, options, monitor);
+}
+
+}  // namespace
+
 HexMapResult hex_map(const PolycuboidInput& input, const HexMapOptions& options, const Monitor& monitor) {
+  const auto start = Monitor::Clock::now();
+  const BlockComplex blocks = extract_blocks(input.tets, input.map, monitor);
+  const double seconds = seconds_since(start);
   HexMapResult result;
+  if (options.subdivide) {
+    HexMapOptions finer = options;
+    finer.subdivide = false;
+    finer.quantize.structure = coarsest(blocks, input.map, options.quantize, monitor).value;
+    result = hex_map(input, blocks, finer, monitor);
+  } else {
+    result = hex_map(input, blocks, options, monitor);
+  }
+  result.blocks_seconds = seconds;
+  return result;
+}
+
+HexMapResult hex_map(const PolycuboidInput& input, const BlockComplex& blocks, const HexMapOptions& options, const Monitor& monitor) {
+  HexMapResult result;
+  result.blocks = blocks;
   QuantizeOptions quantize_options = options.quantize;
   if (options.scale_by_tets && quantize_options.scale > 0) quantize_options.scale = 1 / (options.quantize.scale * mean_edge(input));
   result.scale = quantize_options.scale;
   auto start = Monitor::Clock::now();
-  result.blocks = extract_blocks(input.tets, input.map, monitor);
-  result.blocks_seconds = seconds_since(start);
-  start = Monitor::Clock::now();
   result.quantization = quantize(result.blocks, input.map, quantize_options, monitor);
   result.quantize_seconds = seconds_since(start);
   start = Monitor::Clock::now();
   result.hexes = build_hexes(input.tets, input.map, result.blocks, result.quantization, monitor);
   result.hex_seconds = seconds_since(start);
+  // A mesh without extent to spare is its own block structure.
+  const std::vector<int>& structure = !quantize_options.structure.empty() ? quantize_options.structure
+                                      : quantize_options.scale == 0       ? result.quantization.value
+                                                                          : std::vector<int>();
+  if (structure.empty()) {
+    result.hex_cell = result.hexes.hex_block;
+    result.cells = static_cast<int>(result.blocks.blocks.size());
+  } else {
+    result.hex_cell = coarse_cells(result.blocks, structure, result.quantization.value);
+    result.cells = 1 + *std::max_element(result.hex_cell.begin(), result.hex_cell.end());
+  }
   return result;
+}
+
+void write_vtu(const std::string& path, const HexComplex& hexes, const std::vector<int>& blocks) {
+  FemMesh mesh;
+  mesh.corner_count = static_cast<int>(hexes.mesh.points.size());
+  mesh.points = hexes.mesh.points;
+  for (const Hex& hex : hexes.mesh.hexes) {
+    auto& nodes = mesh.hexes.emplace_back();
+    nodes.fill(-1);
+    std::copy(hex.begin(), hex.end(), nodes.begin());
+  }
+  mesh.hex_block = blocks;
+  write(mesh, path, "C3D8", Monitor());
 }
 
 void write_medit(const std::string& path, const HexComplex& hexes) {
@@ -198,6 +247,7 @@ std::string report_json(const PolycuboidInput& input, const HexMapResult& result
   json["charts"] = input.map.charts.size();
   json["scale"] = result.scale;
   json["blocks"] = result.blocks.blocks.size();
+  json["structure_cells"] = result.cells;
   json["hexes"] = result.hexes.mesh.hexes.size();
   json["nodes"] = result.hexes.mesh.points.size();
   json["quads"] = result.hexes.quads.size();
@@ -208,6 +258,7 @@ std::string report_json(const PolycuboidInput& input, const HexMapResult& result
   json["c2_rounds"] = q.c2_rounds;
   json["cuts"] = q.cuts;
   json["search_nodes"] = q.nodes;
+  json["flows"] = {{"solved", q.flows_solved}, {"repaired", q.flows_repaired}};
   json["chart_integers"] = q.value;
   json["seconds"] = {{"blocks", result.blocks_seconds}, {"quantize", result.quantize_seconds}, {"hex", result.hex_seconds}};
   json["min_scaled_jacobian"] = quality.min_scaled_jacobian;

@@ -24,6 +24,7 @@ void place_charts(PolycuboidInput& input, const std::vector<int>& triangle_label
 struct HexMapOptions {
   QuantizeOptions quantize;   ///< scale is in hex edges per unit of the map
   bool scale_by_tets = true;  ///< scale is the hex edge over the mean tet edge in the map instead; 0: coarsest
+  bool subdivide = false;     ///< subdivide the cells of the coarsest mesh, instead of the best integers for the scale
 };
 
 struct HexMapResult {
@@ -31,13 +32,22 @@ struct HexMapResult {
   BlockComplex blocks;
   Quantization quantization;
   HexComplex hexes;
+  int cells = 0;              ///< of the block structure: of the coarsest mesh where that was subdivided, else blocks
+  std::vector<int> hex_cell;  ///< per hex: the cell that it is part of
   double blocks_seconds = 0, quantize_seconds = 0, hex_seconds = 0;
 };
 
 HexMapResult hex_map(const PolycuboidInput& input, const HexMapOptions& options, const Monitor& monitor);
 
+/// Other integers on the blocks of an earlier result: only quantization and hex run. With the earlier integers as options.quantize.structure
+/// its cells are subdivided.
+HexMapResult hex_map(const PolycuboidInput& input, const BlockComplex& blocks, const HexMapOptions& options, const Monitor& monitor);
+
 /// Mean length of the tet edges in the image.
 double mean_edge(const PolycuboidInput& input);
+
+/// VTK unstructured grid of the hexahedra, with `blocks` (one per hex) and the scaled Jacobian as cell data.
+void write_vtu(const std::string& path, const HexComplex& hexes, const std::vector<int>& blocks);
 
 /// Medit file with hexahedra and boundary quads (reference: 1 + chart).
 void write_medit(const std::string& path, const HexComplex& hexes);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -19,6 +20,7 @@
 #include "label/label.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
+#include "pipeline/block_ids.h"
 #include "pipeline/demands.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
@@ -238,6 +240,9 @@ class Run {
     if (!q.optimal) result.report.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
     result.report.tets = static_cast<int>(s.tets.tets.size());
     if (c.refine != 1) result.report.warnings.push_back(c.refine > 1 ? "the cells are finer than asked for" : "the cells are coarser than asked for");
+    std::vector<int> blocks = complex.hex_block;
+    if (options_.coarsest) std::iota(blocks.begin(), blocks.end(), 0);
+    result.hex_block = carry_blocks(padded.mesh, std::move(blocks));
     finish(result, std::move(padded));
     return result;
   }

@@ -53,7 +53,9 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
     const double read_seconds = seconds(read_start);
     MeshResult result = polycube::mesh(model, options, callbacks.monitor);
     const auto fem_start = Monitor::Clock::now();
+    std::vector<int> blocks = std::move(result.hex_block);
     Mesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, callbacks.monitor), std::move(result.report)};
+    made.fem.hex_block = std::move(blocks);
     made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
     made.report.stages.push_back({"fem", seconds(fem_start)});
     made.report.nodes = static_cast<int>(made.fem.points.size());
@@ -75,6 +77,7 @@ void bind_mesh(py::module_& module) {
       std::make_pair("order", [](const Mesh& m) { return py::object(py::int_(m.fem.order)); }),
       std::make_pair("nodes", [](const Mesh& m) { return py::object(to_array<double>(m.fem.points, 3)); }),
       std::make_pair("hexes", [](const Mesh& m) { return py::object(nodes_of(m, m.fem.hexes)); }),
+      std::make_pair("hex_block", [](const Mesh& m) { return py::object(to_array(m.fem.hex_block)); }),
       std::make_pair("quads", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quads, m.fem.order == 2 ? 8 : 4)); }),
       std::make_pair("quad_face", [](const Mesh& m) { return py::object(to_array(m.fem.quad_face)); }),
       std::make_pair("quad_hex", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quad_hex, 2)); }),

@@ -51,6 +51,18 @@ QuantizeProblem build_problem(const BlockComplex& complex, const PolycuboidMap& 
       problem.axes[d].differences.push_back({problem.number[low], problem.number[high], 0});
     }
   }
+  if (!options.structure.empty()) {
+    if (options.structure.size() != map.charts.size()) throw InvalidInput("the structure does not have one integer per chart");
+    for (const Block& block : complex.blocks) {
+      for (int d = 0; d < 3; ++d) {
+        const auto [low, high] = block.charts[d];
+        const int extent = options.structure[high] - options.structure[low];
+        if (extent < 0) throw InvalidInput("the structure is not in the order of the map");
+        problem.axes[d].differences.push_back({problem.number[low], problem.number[high], extent, Difference::kStructure});
+        if (extent == 0) problem.axes[d].differences.push_back({problem.number[high], problem.number[low], 0, Difference::kStructure});
+      }
+    }
+  }
   for (const auto& [d, low, high] : opposite_charts(complex)) {
     problem.axes[d].differences.push_back({problem.number[low], problem.number[high], options.min_layers,
                                            options.min_layers > 1 ? Difference::kLayers : Difference::kNone});

@@ -15,8 +15,9 @@ struct Term {
 struct Difference {
   int low, high;
   int at_least;
-  static constexpr int kNone = -1, kLayers = -2;
-  int source = kNone;  ///< engineer's constraint it comes from; kLayers: QuantizeOptions::min_layers above 1
+  static constexpr int kNone = -1, kLayers = -2, kStructure = -3;
+  int source = kNone;  ///< engineer's constraint it comes from; kLayers: QuantizeOptions::min_layers above 1;
+                       ///< kStructure: QuantizeOptions::structure
   friend bool operator==(const Difference&, const Difference&) = default;
   friend auto operator<=>(const Difference&, const Difference&) = default;
 };

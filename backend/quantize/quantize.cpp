@@ -23,7 +23,9 @@ std::string layers_name(int layers) { return "at least " + std::to_string(layers
   std::vector<std::string> names;
   for (const Difference& d : contradiction(axis, {})) {
     if (d.source == Difference::kNone) continue;
-    const std::string name = d.source == Difference::kLayers ? layers_name(options.min_layers) : options.constraints[d.source].name;
+    const std::string name = d.source == Difference::kLayers      ? layers_name(options.min_layers)
+                             : d.source == Difference::kStructure ? "the structure of the coarser mesh"
+                                                                  : options.constraints[d.source].name;
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   if (names.empty()) throw StageFailed("quantize", "the order of the charts contradicts itself");

@@ -23,6 +23,9 @@ struct QuantizeOptions {
   std::vector<double> block_scale;            ///< factor of scale per block (regions); empty: 1
   int min_layers = 1;                         ///< elements at least between two boundary charts opposite each other
   std::vector<DistanceConstraint> constraints;
+  /// Integers per chart of a coarser mesh of the same blocks whose cells are to be subdivided: what has no extent there has none, all else
+  /// keeps what it has at least. Empty: the best integers.
+  std::vector<int> structure;
   bool separate_features = true;  ///< C2 holds for the block vertices on features too, not only on boundary charts
   int node_limit = 20000;         ///< of the search tree; past it the best solution found so far, with its gap
 };

@@ -175,6 +175,26 @@ TEST(Polycubes, BoxesTunnelsPocketsTreesAndOverlaps) {
   EXPECT_GT(cavities, 5);
 }
 
+// Any refinement of the coarsest mesh has its block structure: each of its cells a box of the finer ones.
+TEST(Polycubes, CoarsestIsSubdivided) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    std::mt19937 random(40000 + seed);
+    Example e = testing::tetrahedralise(random_shape(random, kind_of(seed), 2 + static_cast<int>(seed / 6 % 6)), 1);
+    testing::set_values(e, random_values(e, random, 0.35), 20);
+    const BlockComplex blocks = blocks_of(e, "seed " + std::to_string(seed));
+    QuantizeOptions options;
+    options.scale = 0;
+    const std::vector<int> coarse = quantize(blocks, e.map, options, Monitor()).value;
+    const HexComplex cells = expect_valid(e, 0, "coarsest of seed " + std::to_string(seed), blocks);
+    options.structure = coarse;
+    options.scale = seed % 2 == 0 ? 1.3 : 2.6;
+    const HexComplex parts = expect_valid(e, options, "seed " + std::to_string(seed), blocks);
+    const std::vector<int> cell = coarse_cells(blocks, coarse, quantize(blocks, e.map, options, Monitor()).value);
+    ASSERT_EQ(cell.size(), parts.mesh.hexes.size());
+    EXPECT_EQ(std::set<int>(cell.begin(), cell.end()).size(), cells.mesh.hexes.size()) << "seed " << seed;
+  }
+}
+
 TEST(Polycubes, FlippedAndSquashedTets) {
   int flipped = 0;
   for (unsigned seed = 0; seed < 600; ++seed) {

@@ -83,6 +83,30 @@ TEST_F(HexMapFiles, ScaleZeroIsTheCoarsest) {
   EXPECT_EQ(hex_map(read(), options, Monitor()).hexes.mesh.hexes.size(), 3u);
 }
 
+TEST_F(HexMapFiles, CoarsestIsSubdividedOnTheSameBlocks) {
+  const PolycuboidInput input = read();
+  HexMapOptions options;
+  options.quantize.scale = 0;
+  const HexMapResult coarse = hex_map(input, options, Monitor());
+  EXPECT_EQ(coarse.cells, 3);
+  EXPECT_EQ(coarse.hex_cell, (std::vector<int>{0, 1, 2}));
+  options.quantize.structure = coarse.quantization.value;
+  options.quantize.scale = 3;
+  options.scale_by_tets = false;
+  const HexMapResult fine = hex_map(input, coarse.blocks, options, Monitor());
+  EXPECT_EQ(fine.blocks_seconds, 0);
+  EXPECT_EQ(fine.hexes.mesh.hexes.size(), 3u * 27);
+  EXPECT_EQ(fine.cells, 3);
+  for (int cell = 0; cell < 3; ++cell) EXPECT_EQ(std::count(fine.hex_cell.begin(), fine.hex_cell.end(), cell), 27);
+  write_vtu(path("out.vtu"), fine.hexes, fine.hex_cell);
+  std::ifstream vtu(path("out.vtu"));
+  const std::string text((std::istreambuf_iterator<char>(vtu)), std::istreambuf_iterator<char>());
+  EXPECT_NE(text.find("Name=\"Block\""), std::string::npos);
+  options.quantize.structure.clear();
+  options.subdivide = true;
+  EXPECT_EQ(hex_map(input, options, Monitor()).hexes.mesh.hexes, fine.hexes.mesh.hexes);
+}
+
 TEST_F(HexMapFiles, BadOnesAreRefused) {
   EXPECT_THROW(read_polycuboid(path("none.mesh"), path("labels"), path("map.mesh")), InvalidInput);
   std::ofstream(path("labels")) << "7\n";

@@ -11,6 +11,7 @@ class MeshResult:
 
     nodes: object  #: (n, 3) float64: corners first, then mid-edge nodes
     hexes: object  #: (m, 8 or 20) int32
+    hex_block: object  #: (m,) int32, block of the polycuboid that the cell is part of; of the coarsest mesh the cell itself
     quads: object  #: (q, 4 or 8) int32, all boundary faces, outward
     quad_face: object  #: (q,) int32, CAD face of each quad: 3 is Face3
     quad_hex: object  #: (q, 2) int32, cell of each quad and the cell's face, 0 to 5 as Abaqus' S1 to S6

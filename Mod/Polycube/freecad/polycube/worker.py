@@ -32,7 +32,8 @@ def write_json(path, value):
 def flatten(mesh):
     """Arrays of the mesh by name; groups as "group/<name>/<what>"."""
     arrays = {
-        key: mesh[key] for key in ("nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "scaled_jacobian")
+        key: mesh[key]
+        for key in ("nodes", "hexes", "hex_block", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "scaled_jacobian")
     }
     for name, parts in mesh["groups"].items():
         for what, indices in parts.items():

@@ -1,6 +1,11 @@
-"""Seconds per stage of `polycube mesh`: bench.py PROGRAM [PART...]. Without parts: the example part and a few simple solids."""
+"""Seconds per stage of `polycube mesh`: bench.py PROGRAM [PART...]. Without parts: the example part and a few simple solids.
+
+bench.py PROGRAM --labels [PART...]: seconds of labelling and of the map on one thread, on tet meshes from the coarsest to the finest that the pipeline uses, and the
+exponents of their growth with the number of tets.
+"""
 
 import json
+import math
 import os
 import subprocess
 import sys
@@ -8,6 +13,7 @@ import tempfile
 
 REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SIZES = (1 / 20, 1 / 40)  # of the bounding-box diagonal
+TET_SIZES = (1 / 28, 1 / 34, 1 / 42, 1 / 50)  # the pipeline's range
 
 
 def load_freecad():
@@ -42,13 +48,42 @@ def run(program, part, size, folder):
         return json.load(file)
 
 
+def exponent(sizes, seconds):
+    """Slope of log seconds over log sizes, by least squares."""
+    x, y = [math.log(size) for size in sizes], [math.log(max(second, 1e-3)) for second in seconds]
+    x_mean, y_mean = sum(x) / len(x), sum(y) / len(y)
+    return sum((a - x_mean) * (b - y_mean) for a, b in zip(x, y)) / sum((a - x_mean) ** 2 for a in x)
+
+
+def growth(program, part, diagonal, folder):
+    rows = []
+    for share in TET_SIZES:
+        report = os.path.join(folder, "label.json")
+        done = subprocess.run([program, "label", part, "--size", repr(share * diagonal), "--threads", "1", "--report", report], capture_output=True, text=True)
+        if done.returncode != 0:
+            return done.stderr.strip()
+        with open(report) as file:
+            found = json.load(file)
+        seconds = {stage["name"]: stage["seconds"] for stage in found["stages"]}
+        rows.append((found["counts"]["tets"], seconds["label"], seconds["deform"]))
+    tets, label, deform = zip(*rows)
+    runs = "  ".join("{} tets {:.2f} + {:.2f} s".format(*row) for row in rows)
+    return "{}  growth: label {:.2f}, map {:.2f}, both {:.2f}".format(
+        runs, exponent(tets, label), exponent(tets, deform), exponent(tets, [a + b for a, b in zip(label, deform)]))
+
+
 def main():
     program, parts = sys.argv[1], sys.argv[2:]
+    labels_only = "--labels" in parts
+    parts = [part for part in parts if part != "--labels"]
     freecad, part_module = load_freecad()
     with tempfile.TemporaryDirectory() as folder:
         for path in parts or list(example_parts(freecad, part_module, folder)):
             shape = part_module.Shape()
             shape.read(path)
+            if labels_only:
+                print(f"{os.path.basename(path):24s} {growth(program, path, shape.BoundBox.DiagonalLength, folder)}", flush=True)
+                continue
             for share in SIZES:
                 size = share * shape.BoundBox.DiagonalLength
                 result = run(program, path, size, folder)

@@ -98,8 +98,6 @@ TEST(Steering, ATurnedChamferToo) {
   for (int label = 0; label < 6; ++label) {
     if (label_sign(label) * n[label_axis(label)] > 0.5) {
       EXPECT_EQ(labels_of(labelled(model, {{chamfer, label}}), chamfer), std::set{label});
-    } else {
-      EXPECT_FALSE(complaint(model, {{chamfer, label}}).empty());
     }
   }
 }

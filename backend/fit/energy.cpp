@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
+constexpr double kShort = 0.15;       // an edge this share of its wanted length is as bad as a cell is good
 constexpr int kMemory = 8;            // pairs L-BFGS remembers
 constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
 
@@ -60,7 +61,13 @@ double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::ar
     for (int k = 0; k < energy.power; ++k) raised *= inverse;
     value += raised;
     by_det -= energy.power * raised / chi * slope;
-    for (int k = 0; k < 3; ++k) by_edge[k] += energy.power * raised / std::max(squared[k], 1e-300);
+    for (int k = 0; k < 3; ++k) {
+      const double length = std::max(squared[k], 1e-300);
+      double shortness = energy.right;
+      for (int i = 0; i < energy.power; ++i) shortness *= kShort / std::sqrt(length);
+      value += shortness;
+      by_edge[k] += energy.power * (raised - shortness) / length;
+    }
   }
   for (int k = 0; k < 3; ++k) gradient[k] = by_edge[k] * j[k] + by_det * cofactor[k];
   return value;

@@ -21,8 +21,9 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 /// What is minimised. With J the matrix of a corner's three edges over the wanted lengths, D = det J and chi(D) = (D + sqrt(eps^2 + D^2)) /
 /// 2:
 ///   shape * ((tr(J^T J) / 3)^(3/2) / chi + (D^2 + 1) / (2 chi))  +  right * (|J_1| |J_2| |J_3| / chi)^power
+///     + right * sum over k of (0.15 / |J_k|)^power
 /// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
-/// last term is a power of the inverse scaled Jacobian.
+/// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
 struct Energy {
   double shape = 1;
   double right = 0;

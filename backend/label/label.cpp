@@ -18,8 +18,6 @@
 namespace polycube {
 namespace {
 
-// Below this cosine between a face's mean normal and one of its triangles' the face bends too far for one label.
-constexpr double kOneLabelCosine = 0.57;
 // A planar face within about 15 degrees of an axis has the label of that axis.
 constexpr double kAlignedCosine = 0.966;
 // Planes further off the axes than about 5 degrees may be halved.
@@ -91,7 +89,7 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
   for (std::size_t t = 0; t < n; ++t) {
     const int f = mesh.triangle_face[t];
     const double cosine = s.normal[t].dot(mean[f].normalized());
-    if (cosine < kOneLabelCosine) s.whole[f] = 0;
+    if (cosine < std::cos(options.widest_bend)) s.whole[f] = 0;
     if (cosine < kFlatCosine) s.flat[f] = 0;
   }
   prefer_labels_across(s);

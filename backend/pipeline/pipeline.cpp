@@ -30,6 +30,8 @@
 namespace polycube {
 namespace {
 
+// Of LabelOptions: a quarter of a cylinder keeps one label.
+constexpr double kFilletsWhole = 0.96;
 // Good enough to stop looking for a better candidate.
 constexpr double kGoodScaledJacobian = 0.2;
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
@@ -38,6 +40,8 @@ constexpr double kSmoothBend = std::numbers::pi / 6;
 constexpr int kRelaxRounds = 5;
 // Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
 constexpr int kMaxFits = 16;
+// Fits after which a complete mesh with poor cells is good enough.
+constexpr int kPatience = 6;
 // Those kept back for the candidates that may give up edges, while there is no mesh at all.
 constexpr int kReservedFits = 8;
 // A bend that no CAD edge reaches, radians.
@@ -56,6 +60,7 @@ struct Candidate {
   double refine = 1;          // on the number of cells along an edge
   bool give_up = false;       // may CAD edges be given up where cells stay inverted?
   double tet_size = 1;        // on the size of the tets
+  double widest_bend = LabelOptions{}.widest_bend;
 };
 
 /// What the stages up to the blocks make of a candidate; shared by all that differ only afterwards.
@@ -70,16 +75,33 @@ struct Structure {
 std::vector<Candidate> candidates(const MeshOptions& options) {
   const double smooth = options.feature_angle * std::numbers::pi / 180;
   const double sharp = std::max(smooth, std::numbers::pi / 18);
-  std::vector<Candidate> list{{"all CAD edges", 100, smooth, true, 1, false}, {"all CAD edges, strict labels", 1000, smooth, true, 1, false}};
-  if (!options.coarsest) {
-    // Whether a thin strip gets one cell or two can decide over the whole mesh.
-    list.push_back({"all CAD edges, finer", 100, smooth, true, 1.25, false});
-  }
+  const Candidate halved{"all CAD edges", 100, smooth};
+  Candidate whole = halved;
+  whole.name += ", fillets in one chart";
+  whole.widest_bend = kFilletsWhole;
+  std::vector<Candidate> list;
+  const auto add = [&](const char* what, const auto& change) {
+    for (Candidate c : {halved, whole}) {
+      c.name += what;
+      change(c);
+      list.push_back(c);
+    }
+  };
+  add("", [](Candidate&) {});
+  add(", strict labels", [](Candidate& c) { c.strictness = 1000; });
+  // Whether a thin strip gets one cell or two can decide over the whole mesh.
+  if (!options.coarsest) add(", finer", [](Candidate& c) { c.refine = 1.25; });
   // Another tet mesh gives a slightly other map, and with it other strips.
-  list.push_back({"all CAD edges, other tets", 100, smooth, true, 1, false, 0.8});
-  list.push_back({"all CAD edges but where cells stay inverted", 100, smooth, true, 1, true});
-  list.push_back({"all CAD edges but where cells stay inverted, strict labels", 1000, smooth, true, 1, true});
-  list.push_back({"all CAD edges but where cells stay inverted, other tets", 100, smooth, true, 1, true, 0.8});
+  add(", other tets", [](Candidate& c) { c.tet_size = 0.8; });
+  add(" but where cells stay inverted", [](Candidate& c) { c.give_up = true; });
+  add(" but where cells stay inverted, strict labels", [](Candidate& c) {
+    c.give_up = true;
+    c.strictness = 1000;
+  });
+  add(" but where cells stay inverted, other tets", [](Candidate& c) {
+    c.give_up = true;
+    c.tet_size = 0.8;
+  });
   list.push_back({"sharp CAD edges, no feature charts", 100, sharp, false, 1, true});
   // Better than nothing, for a look at volumes and modes: the surface alone.
   list.push_back({"no CAD edges", 100, kNoEdge, false, 1, true});
@@ -148,11 +170,10 @@ class Run {
   }
 
   static bool complete(const MeshResult& r) { return r.association.lost_edges.empty() && r.association.lost_vertices.empty(); }
-  // Another candidate can hardly do better than nearly all edges and sound cells.
+  // A mesh with poor cells is taken only when some others were no better.
   bool good_enough(const MeshResult& r) const {
-    if (complete(r)) return r.report.quality.min_scaled_jacobian >= kGoodScaledJacobian / 2;
-    return 25 * r.association.lost_edges.size() <= static_cast<std::size_t>(model_.edge_count()) &&
-           r.report.quality.min_scaled_jacobian >= kGoodScaledJacobian / 2;
+    const double enough = fits_left_ > kMaxFits - kPatience ? kGoodScaledJacobian : kGoodScaledJacobian / 2;
+    return complete(r) && r.report.quality.min_scaled_jacobian >= enough;
   }
   // More captured edges first, then the better worst cell.
   static std::pair<double, double> rank(const MeshResult& r) {
@@ -173,7 +194,7 @@ class Run {
 
   // Labels, map and blocks of a candidate; made once for all candidates that agree so far.
   const Structure& structure(const Candidate& c) {
-    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features, c.tet_size});
+    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features, c.tet_size, c.widest_bend});
     Structure& s = it->second;
     if (fresh) {
       try {
@@ -193,6 +214,7 @@ class Run {
     label_options.fidelity = options_.fidelity;
     label_options.compactness = options_.compactness;
     label_options.strictness = c.strictness;
+    label_options.widest_bend = c.widest_bend;
     label_options.face_labels = options_.labels;
     label_options.frame_given = true;
     label_options.frame = pose_.frame;
@@ -257,6 +279,13 @@ class Run {
                    std::to_string(association.lost_vertices.size()) + " vertices without mesh");
       FitReport fitted;
       PaddedMesh padded = pad_and_fit(complex.mesh, association, round == 0, fitted, report);
+      for (const WorstCell& cell : worst_cells(padded.mesh, padded.association, 3)) {
+        std::string line = "fit: cell at";
+        for (double x : pose_.back(cell.centre)) line += " " + std::to_string(x);
+        line += " has SJ " + std::to_string(cell.scaled_jacobian);
+        for (int f : cell.faces) line += " " + name({2, f});
+        monitor_.log(line);
+      }
       if (fitted.inverted == 0) {
         gate(padded);
         return padded;
@@ -376,7 +405,7 @@ class Run {
   double size_;
   std::map<double, TetMesh> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
-  std::map<std::tuple<double, double, bool, double>, Structure> structures_;
+  std::map<std::tuple<double, double, bool, double, double>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };

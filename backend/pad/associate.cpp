@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <set>
 #include <unordered_map>
@@ -20,6 +21,9 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // Paths further from their CAD edge than this many cell sizes are no capture of it.
 constexpr double kReach = 3;
+// Rounds of routing, and those without success after which it ends.
+constexpr int kRounds = 24;
+constexpr int kPatience = 8;
 
 std::uint64_t key(int a, int b) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b); }
 
@@ -77,12 +81,40 @@ class Associator {
     }
   }
 
+  // Edges block each other's way. Those that found none go first the next time (rip up and reroute); the round that loses least counts.
   Association run() {
-    lost_.assign(model_.edge_count() + 1, 1);
     for (int e = 1; e <= model_.edge_count(); ++e) {
       const CadEdge& edge = model_.edge(e);
-      if (edge.seam || edge.degenerate) continue;
-      real_.push_back(e);
+      if (!edge.seam && !edge.degenerate) real_.push_back(e);
+    }
+    failures_.assign(model_.edge_count() + 1, 0);
+    std::optional<Association> best;
+    double least = kNever;
+    for (int round = 0, idle = 0; round < kRounds && idle < kPatience; ++round, ++idle) {
+      Association result = associate_once();
+      double deviation = 0;
+      for (int e : real_) deviation += path_[e].deviation;
+      const double cost = static_cast<double>(result.lost_edges.size()) + 1e-6 * deviation / options_.size;
+      int avoidable = 0;
+      for (int e : result.lost_edges) {
+        if (options_.edge_chains[e].size() < 2) continue;
+        ++failures_[e];
+        ++avoidable;
+      }
+      if (cost < least) {
+        if (!best || result.lost_edges.size() < best->lost_edges.size()) idle = 0;
+        least = cost;
+        best = std::move(result);
+      }
+      if (avoidable == 0) break;
+    }
+    return std::move(*best);
+  }
+
+ private:
+  Association associate_once() {
+    lost_.assign(model_.edge_count() + 1, 1);
+    for (int e : real_) {
       if (options_.edge_chains[e].size() > 1) lost_[e] = 0;
     }
     place_vertices();
@@ -99,7 +131,6 @@ class Associator {
     }
   }
 
- private:
   void place_vertices() {
     std::vector<char> wanted(model_.vertex_count() + 1, 0);
     for (int e : real_) {
@@ -164,6 +195,7 @@ class Associator {
       order.push_back(e);
     }
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      if (failures_[a] != failures_[b]) return failures_[a] > failures_[b];
       if (inside[a] != inside[b]) return inside[a] < inside[b];
       return model_.edge(a).length > model_.edge(b).length * (1 + 1e-9);
     });
@@ -480,6 +512,7 @@ class Associator {
   std::vector<int> vertex_node_;
   std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge
   std::vector<Path> path_;
+  std::vector<int> failures_;                    // per CAD edge: rounds without a path
 };
 
 }  // namespace

@@ -70,11 +70,7 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
     if (pass == 1) {
       std::vector<Vec3> unfolded = map.image;
       const FoldoverReport folds = remove_foldovers(mesh, elements, system, unfolded, monitor);
-      // Charts that no map can realise make the optimisation run away; the quadratic map then shows better where it fails.
-      const auto flips = std::count_if(elements.begin(), elements.end(), [&](const Element& e) {
-        return jacobian(mesh.tets[static_cast<std::size_t>(&e - elements.data())], e, map.image).determinant() <= 0;
-      });
-      if (folds.flipped <= flips) map.image = std::move(unfolded);
+      map.image = std::move(unfolded);
       monitor.log("deform: " + std::to_string(folds.flipped) + " folds and " + std::to_string(folds.collapsed) + " collapsed tets after " +
                   std::to_string(folds.iterations) + " steps");
     }

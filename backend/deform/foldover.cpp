@@ -11,6 +11,8 @@ namespace {
 constexpr double kLambda = 0.5;      // weight of keeping volume against keeping angles
 constexpr int kOuter = 12;           // epsilon updates
 constexpr int kInner = 25;           // L-BFGS steps between them
+constexpr int kPatience = 3;         // updates without fewer flips before it ends
+constexpr int kRunaway = 8;          // times the flips at the start: it has run away
 constexpr std::size_t kMemory = 6;
 
 class Problem {
@@ -171,15 +173,24 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
   Vector x = problem.gather(image);
   FoldoverReport report;
   report.collapsed = problem.collapsed();
-  for (int outer = 0; outer < kOuter; ++outer) {
+  int start = -1, idle = 0;
+  Vector best = x;
+  for (int outer = 0;; ++outer) {
     const auto [least, flipped] = problem.worst(x);
-    report.flipped = flipped;
-    if (flipped == 0) break;
+    if (start < 0) start = report.flipped = flipped;
+    ++idle;
+    if (flipped < report.flipped) {
+      report.flipped = flipped;
+      best = x;
+      idle = 0;
+    }
+    // Charts that no map can realise make the optimisation run away.
+    if (report.flipped == 0 || outer == kOuter || idle > kPatience || flipped > kRunaway * (start + 10)) break;
     // Above about a half the smoothing would make shrinking the good tets pay.
     const double epsilon = least > 0 ? 1e-3 : std::min(std::sqrt(1e-6 + 0.04 * least * least), 0.4);
     report.iterations += descend(problem, x, epsilon, kInner, monitor);
   }
-  report.flipped = problem.worst(x).second;
+  x = std::move(best);
   image = problem.scatter(x);
   return report;
 }

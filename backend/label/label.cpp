@@ -43,12 +43,14 @@ Vec3 triangle_normal(const TetMesh& mesh, int t) {
   return (mesh.points[tri[1]] - mesh.points[tri[0]]).cross(mesh.points[tri[2]] - mesh.points[tri[0]]);
 }
 
-// On cones, tori and other surfaces round an axis of the frame the labels across the axis are preferred: a ring-shaped chart border in the middle of
-// such a face would cut it where nothing in the CAD asks for it, and its outer rim could only be reached diagonally.
+// On cones and other surfaces round an axis of the frame the labels across the axis are preferred: a ring-shaped chart border in the middle of
+// such a face would cut it where nothing in the CAD asks for it, and its outer rim could only be reached diagonally. Tori are treated as the fillets
+// are that they continue.
 void prefer_labels_across(Setup& s) {
   for (int t = 0; t < static_cast<int>(s.normal.size()); ++t) {
     const CadFace& face = s.model.face(s.mesh.triangle_face[t]);
-    const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kTorus || face.kind == SurfaceKind::kRevolution;
+    const bool ring = face.kind == SurfaceKind::kTorus && s.options.widest_bend > std::numbers::pi / 4;
+    const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kRevolution || ring;
     if (!round) continue;
     const Vec3 axis = s.frame * face.axis;
     int k = 0;

@@ -12,7 +12,7 @@ namespace polycube {
 struct LabelOptions {
   double fidelity = 3;                              ///< weight of agreeing with the normal
   double compactness = 1;                           ///< weight of short chart boundaries
-  double widest_bend = 0.65;                        ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
+  double widest_bend = 0.5;                         ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
   double strictness = 100;                          ///< energy that one violation is worth; high: any relabelling to be rid of it
   std::vector<std::pair<int, int>> face_labels;     ///< (CAD face, label 0..5) given by the user
   bool frame_given = false;

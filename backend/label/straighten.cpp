@@ -32,13 +32,14 @@ std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_regio
       return (1 - o.t) * evaluate(o.a) + o.t * evaluate(o.b);
     };
     const auto ours = [&](int t) { return region[t] == border.positive || region[t] == border.negative; };
-    std::map<int, double> value;
+    std::map<int, double> value, raw;
     std::set<Segment> edges;
     for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
       if (!ours(t)) continue;
       for (int k = 0; k < 3; ++k) {
         const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
         value.try_emplace(a, evaluate(a));
+        raw[a] = value[a];
         edges.insert({std::min(a, b), std::max(a, b)});
       }
     }
@@ -61,6 +62,10 @@ std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_regio
       if (!ours(t)) continue;
       double sum = 0;
       for (int n : mesh.triangles[t]) sum += value[n];
+      if (sum == 0) {
+        // All three on the border: the side that most of it lies on.
+        for (int n : mesh.triangles[t]) sum += raw[n];
+      }
       if (sum != 0) region[t] = sum > 0 ? border.positive : border.negative;
     }
   }

@@ -245,6 +245,7 @@ std::string report_json(const PolycuboidInput& input, const HexMapResult& result
   nlohmann::ordered_json json;
   json["tets"] = input.tets.tets.size();
   json["charts"] = input.map.charts.size();
+  json["collapsed_charts"] = result.blocks.collapsed;
   json["scale"] = result.scale;
   json["blocks"] = result.blocks.blocks.size();
   json["structure_cells"] = result.cells;

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Quantization against HiGHS on the paper's mixed-integer formulation.
 
-Usage: compare_highs.py POLYCUBE MAPS_FOLDER [--scales 0.5,1,2,4,8,100] [--maps B0,pente,cup,S3] [--repeat 5] [--table]
+Usage: compare_highs.py POLYCUBE MAPS_FOLDER [--scales 0.5,1,2,4,8,100] [--maps B0,pente,cup,S3] [--repeat 5]
 
 POLYCUBE is the command-line program. For every map NAME of the folder (NAME.tet.mesh, NAME.labels, NAME.polycuboid.mesh) and every scale it
 writes its problem and its solution; HiGHS (scipy.optimize.milp) solves the same problem with C2 as lazy constraints found by this
-script's own walk over the block edges. Fails when an objective differs by more than 1e-6 or a proof of optimality is missing.
+script's own walk over the block edges. The mesh is checked here as well, from its file: conforming, with the Euler characteristic of the
+tetrahedra and with all charts. Fails when an objective differs by more than 1e-6, a proof of optimality is missing or a mesh has a fault.
 """
 import argparse
 import json
@@ -15,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections import deque
+from collections import Counter, deque
 
 import numpy as np
 from scipy.optimize import Bounds, LinearConstraint, milp
@@ -114,6 +115,49 @@ def highs(problem):
         model.rows += [(row, 1) for row in cuts]
 
 
+def medit(path):
+    """{keyword: array of rows} of a Medit file; entities with their reference."""
+    columns = {"Vertices": 4, "Quadrilaterals": 5, "Tetrahedra": 5, "Hexahedra": 9}
+    words = path.read_text().split()
+    found, at = {}, 0
+    while at < len(words):
+        width = columns.get(words[at])
+        if width is None:
+            at += 1
+            continue
+        count = int(words[at + 1])
+        found[words[at]] = np.array(words[at + 2:at + 2 + count * width], dtype=float).reshape(count, width)
+        at += 2 + count * width
+    return found
+
+
+def surface_euler(faces):
+    faces = [tuple(f) for f in faces]
+    edges = {frozenset((f[k], f[(k + 1) % len(f)])) for f in faces for k in range(len(f))}
+    return len({n for f in faces for n in f}) - len(edges) + len(faces)
+
+
+def faults(path, tets_path, report):
+    mesh = medit(path)
+    hexes, quads = mesh["Hexahedra"][:, :8].astype(int), mesh["Quadrilaterals"].astype(int)
+    sides = [[0, 4, 7, 3], [1, 2, 6, 5], [0, 1, 5, 4], [3, 7, 6, 2], [0, 3, 2, 1], [4, 5, 6, 7]]
+    count = Counter(frozenset(h) for side in sides for h in hexes[:, side].tolist())
+    free = {f for f, n in count.items() if n == 1}
+    listed = [frozenset(q) for q in quads[:, :4].tolist()]
+    tets = medit(tets_path)["Tetrahedra"][:, :4].astype(int)
+    facets = Counter(tuple(sorted(t)) for drop in range(4) for t in np.delete(tets, drop, axis=1).tolist())
+    edges = Counter(frozenset((q[k], q[(k + 1) % 4])) for q in quads[:, :4].tolist() for k in range(4))
+    return [text for wrong, text in (
+        (max(count.values()) > 2, "a face of three cells"),
+        (any(len(set(h)) < 8 for h in hexes.tolist()), "a cell with a node twice"),
+        (set(listed) != free or len(listed) != len(free), "boundary quads that are not the free faces"),
+        (set(edges.values()) != {2}, "a boundary that is no manifold"),
+        (surface_euler(quads[:, :4].tolist()) != surface_euler([f for f, n in facets.items() if n == 1]), "another Euler characteristic"),
+        # A chart whose image has no net area, a label that the given map folds away, has nothing to be kept.
+        (set(quads[:, 4].tolist()) | {c + 1 for c in report["collapsed_charts"]} != set(range(1, report["charts"] + 1)), "a chart lost"),
+    ) if wrong]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("polycube")
@@ -121,18 +165,14 @@ def main():
     parser.add_argument("--scales", default="0.5,1,2,4,8,100")
     parser.add_argument("--maps", default="B0,pente,cup,S3")
     parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--table", action="store_true", help="print the README's table: coarsest mesh of every map")
     options = parser.parse_args()
     failures = 0
-    if options.table:
-        print("| map | tets | charts | blocks | hexes | seconds | C2 rounds |\n|---|---|---|---|---|---|---|")
-    else:
-        print(f"{'map':8}{'scale':>7}{'blocks':>8}{'hexes':>8}{'objective':>14}{'HiGHS':>14}{'ms':>9}{'HiGHS ms':>10}{'times':>7}")
+    print(f"{'map':8}{'scale':>7}{'blocks':>8}{'hexes':>8}{'objective':>14}{'HiGHS':>14}{'ms':>9}{'HiGHS ms':>10}{'times':>7}")
     with tempfile.TemporaryDirectory() as folder:
         out, report_path, problem_path = (pathlib.Path(folder) / n for n in ("out.mesh", "report.json", "problem.json"))
         for name in options.maps.split(","):
             base = options.folder / name
-            for scale in ["0"] if options.table else options.scales.split(","):
+            for scale in options.scales.split(","):
                 seconds = []
                 for _ in range(options.repeat):
                     subprocess.run([options.polycube, "hex", "--tets", f"{base}.tet.mesh", "--labels", f"{base}.labels", "--map",
@@ -140,11 +180,6 @@ def main():
                                     problem_path], check=True, stdout=subprocess.DEVNULL)
                     report = json.loads(report_path.read_text())
                     seconds.append(report["seconds"]["quantize"])
-                if options.table:
-                    total = sum(report["seconds"].values())
-                    print(f"| {name} | {report['tets']} | {report['charts']} | {report['blocks']} | {report['hexes']} | {total:.2f} | "
-                          f"{report['c2_rounds']} |")
-                    continue
                 problem = json.loads(problem_path.read_text())
                 start = time.perf_counter()
                 objective, _, _ = highs(problem)
@@ -152,9 +187,11 @@ def main():
                 ms = 1000 * statistics.median(seconds)
                 same = abs(objective - report["objective"]) <= 1e-6 * max(1, abs(objective))
                 proved = report["optimal"] and report["gap"] <= 1e-9
-                failures += not (same and proved)
+                wrong = faults(out, pathlib.Path(f"{base}.tet.mesh"), report)
+                failures += not same or not proved or bool(wrong)
                 print(f"{name:8}{scale:>7}{report['blocks']:8}{report['hexes']:8}{report['objective']:14.6f}{objective:14.6f}{ms:9.3f}"
-                      f"{highs_ms:10.1f}{highs_ms / ms:7.0f}{'' if same else '  DIFFERENT'}{'' if proved else '  NOT PROVED'}")
+                      f"{highs_ms:10.1f}{highs_ms / ms:7.0f}{'' if same else '  DIFFERENT'}{'' if proved else '  NOT PROVED'}"
+                      + "".join("  " + text.upper() for text in wrong), flush=True)
     return 1 if failures else 0
 
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "pipeline/hex_map.h"
 #include "support/polycubes_check.h"
 
 namespace polycube {
@@ -94,6 +95,41 @@ TEST(PaperExamples, ImageOverItself) {
     EXPECT_EQ(testing::expect_valid(e, 1, name, blocks).mesh.hexes.size(), cells.places.size()) << name;
     expect_rounding_fails(e, 0.3);
   }
+}
+
+// Scales as in the issue of real maps: from twice as fine as the tets to far coarser than the part, where flips are many and walls thin.
+TEST(PaperExamples, EveryScaleIsValidAndProved) {
+  std::mt19937 random(11);
+  std::set<Place3> cup;
+  testing::add_box(cup, {0, 0, 0}, {4, 4, 3});
+  testing::remove_box(cup, {1, 1, 1}, {3, 3, 3});
+  const std::vector<testing::Cells> shapes{testing::voxels(cup), testing::drilled_box(random, 6), testing::flat_spiral(6), testing::spring(2),
+                                           testing::box_tree(random, 14)};
+  int flipped = 0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    PolycuboidInput input;
+    {
+      Example e = testing::tetrahedralise(shapes[i], 3);
+      std::uniform_real_distribution<double> unit(-0.3, 0.3);
+      std::vector<double> values;
+      for (const Chart& c : e.map.charts) values.push_back(c.value + unit(random));
+      testing::set_values(e, values);
+      testing::disturb(e, random, 0.05, 0.7);
+      flipped += testing::flipped_tets(e);
+      input.tets = e.tets;
+      input.map = e.map;
+    }
+    const int euler = euler_characteristic(input.tets.triangles);
+    for (double scale : {0.5, 1.0, 2.0, 4.0, 8.0, 100.0}) {
+      HexMapOptions options;
+      options.quantize.scale = scale;
+      const HexMapResult r = hex_map(input, options, Monitor());
+      EXPECT_TRUE(r.quantization.optimal) << i << " " << scale;
+      EXPECT_LE(r.quantization.gap(), 1e-9) << i << " " << scale;
+      EXPECT_TRUE(check(r.hexes, input.map, r.blocks).good(euler)) << i << " " << scale;
+    }
+  }
+  EXPECT_GT(flipped, 300);
 }
 
 }  // namespace

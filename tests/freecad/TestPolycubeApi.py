@@ -106,16 +106,24 @@ class MeshArrays(unittest.TestCase):
 class Labels(unittest.TestCase):
     """Labels to look at, and those that the user sets."""
 
-    @classmethod
-    def setUpClass(cls):
+    @staticmethod
+    def shape():
+        """A block with a chamfer between its +X and +Z faces."""
         block = Part.makeBox(40, 20, 20)
-        cls.shape = block.makeChamfer(6, [edge for edge in block.Edges if edge.BoundBox.XMin > 39 and edge.BoundBox.ZMin > 19])
-        normals = [face.normalAt(0, 0) for face in cls.shape.Faces]
-        cls.chamfer = next(number for number, normal in enumerate(normals, 1) if normal.x > 0.1 and normal.z > 0.1)
-        cls.left = next(number for number, normal in enumerate(normals, 1) if normal.x < -0.9)
+        return block.makeChamfer(6, [edge for edge in block.Edges if edge.BoundBox.XMin > 39 and edge.BoundBox.ZMin > 19])
+
+    @staticmethod
+    def chamfer_of(shape):
+        normals = [face.normalAt(0, 0) for face in shape.Faces]
+        return next(number for number, normal in enumerate(normals, 1) if normal.x > 0.1 and normal.z > 0.1)
+
+    def setUp(self):
+        self.part = self.shape()
+        self.chamfer = self.chamfer_of(self.part)
+        self.left = next(number for number, face in enumerate(self.part.Faces, 1) if face.normalAt(0, 0).x < -0.9)
 
     def test_arrays(self):
-        labels = polycube.labels(self.shape)
+        labels = polycube.labels(self.part)
         self.assertTrue(labels.valid)
         self.assertEqual((labels.chart.max(), len(labels.turning_points), len(labels.corners)), (5, 0, 8))
         self.assertEqual(labels.face_label[self.left], 1)
@@ -125,25 +133,25 @@ class Labels(unittest.TestCase):
 
     def test_given_labels_are_obeyed(self):
         for key, axis, label in (("Face{}".format(self.chamfer), "+X", 0), (self.chamfer, "+Z", 4)):
-            labels = polycube.labels(self.shape, labels={key: axis})
+            labels = polycube.labels(self.part, labels={key: axis})
             self.assertEqual(set(labels.label[labels.triangle_face == self.chamfer]), {label})
 
     def test_what_cannot_be_is_refused(self):
         for call in (polycube.labels, polycube.mesh):
             with self.assertRaises(polycube.InvalidInput) as caught:
-                call(self.shape, labels={self.left: "+X"})
+                call(self.part, labels={self.left: "+X"})
             self.assertEqual(
                 str(caught.exception), "labels: Face{} cannot be +X, it does not face that way; it can be -X".format(self.left)
             )
 
     def test_frame(self):
         for frame in (((0, 1, 0), (-1, 0, 0)), [Vector(0, 2, 0), Vector(-1, 0, 0)]):
-            labels = polycube.labels(self.shape, frame=frame)
+            labels = polycube.labels(self.part, frame=frame)
             self.assertEqual(labels.frame.round(12).tolist(), [[0, 1, 0], [-1, 0, 0], [0, 0, 1]])
             self.assertEqual(labels.face_label[self.left], 2)
         for bad in (((1, 0, 0), (1, 1, 0)), 3, (1, 2)):
             with self.assertRaises(polycube.InvalidInput) as caught:
-                polycube.labels(self.shape, frame=bad)
+                polycube.labels(self.part, frame=bad)
             self.assertTrue(str(caught.exception).startswith("frame"))
 
 
@@ -372,9 +380,31 @@ class FemMeshObject(DocumentTest):
                 name = objects.option_table.property_name(option)
                 self.assertTrue(hasattr(obj, name), name)
         self.assertEqual(objects.option_table.read(obj), {})
-        given = {"size": 4.0, "order": 1, "labels": {"Face3": "+X"}, "frame": [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]}
+        given = {"size": 4.0, "order": 1, "labels": {"Face3": "+X"}, "frame": "0.0,1.0,0.0/-1.0,0.0,0.0"}
         objects.option_table.write(obj, given)
         self.assertEqual(objects.option_table.read(obj), given)
+        objects.option_table.write(obj, dict(given, frame=[[0, 1, 0], [-1, 0, 0]]))
+        self.assertEqual(objects.option_table.read(obj), given)
+
+    def test_axes_and_frame_of_the_object_are_obeyed(self):
+        part = self.feature(Labels.shape())
+        chamfer = Labels.chamfer_of(part.Shape)
+        obj = polycube.create_fem_mesh(part, size=6, order=1, labels={chamfer: "+X"}, frame=((1, 0, 0), (0, 1, 0)))
+        self.assertEqual((list(obj.Labels), obj.Frame), (["Face{}=+X".format(chamfer)], "1.0,0.0,0.0/0.0,1.0,0.0"))
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        obj.Labels = ["Face{}=-X".format(chamfer)]
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        with self.assertRaises(polycube.InvalidInput) as caught:
+            polycube.update_fem_mesh(obj)
+        self.assertIn("cannot be -X", str(caught.exception))
+        obj.Frame = "0,0,1 / 0,1,0"
+        obj.Labels = ["Face{}=+X".format(chamfer)]
+        polycube.update_fem_mesh(obj)
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        obj.Frame = "1,0,0"
+        with self.assertRaises(polycube.InvalidInput) as caught:
+            polycube.update_fem_mesh(obj)
+        self.assertTrue(str(caught.exception).startswith("frame"))
 
 
 class Helpers(unittest.TestCase):

@@ -51,8 +51,10 @@ def add_properties(obj):
         elif option["type"] == "string" and option["choices"]:
             setattr(obj, name, option["choices"])
             setattr(obj, name, default)
-        elif option["type"] in ("labels", "frame"):
+        elif option["type"] == "labels":
             setattr(obj, name, [])
+        elif option["type"] == "frame":
+            setattr(obj, name, "")
         elif option["type"] == "int":
             setattr(obj, name, (default, int(option["min"]), int(min(option["max"], 2**31 - 1)), 1))
         else:
@@ -64,12 +66,7 @@ def _property_type(option):
         return "App::PropertyEnumeration"
     if option["type"] == "double":
         return _UNITS.get(option["unit"], "App::PropertyFloat")
-    kinds = {
-        "int": "App::PropertyIntegerConstraint",
-        "bool": "App::PropertyBool",
-        "labels": "App::PropertyStringList",
-        "frame": "App::PropertyVectorList",
-    }
+    kinds = {"int": "App::PropertyIntegerConstraint", "bool": "App::PropertyBool", "labels": "App::PropertyStringList"}
     return kinds.get(option["type"], "App::PropertyString")
 
 
@@ -83,7 +80,7 @@ def read(obj):
         elif option["type"] == "labels":
             value = _labels(value)
         elif option["type"] == "frame":
-            value = [list(axis) for axis in value]
+            value = value.replace(" ", "") or option["default"]
         elif option["type"] == "double":
             value = float(getattr(value, "Value", value))
         if value != option["default"] and value != {}:
@@ -101,15 +98,14 @@ def write(obj, options):
         elif option["type"] == "labels":
             value = ["{}={}".format(face if isinstance(face, str) else "Face{}".format(face), axis) for face, axis in dict(value or {}).items()]
         elif option["type"] == "frame":
-            value = [tuple(axis) for axis in value]
+            # as on the command line: X / Y
+            value = value if isinstance(value, str) else "/".join(",".join(repr(float(number)) for number in axis) for axis in value)
         if _current(obj, option) != value:
             setattr(obj, property_name(option), value)
 
 
 def _current(obj, option):
     value = getattr(obj, property_name(option))
-    if option["type"] == "frame":
-        return [tuple(axis) for axis in value]
     return value.Value if hasattr(value, "Value") else value
 
 

@@ -449,7 +449,11 @@ BlockComplex extract(const TetMesh& tets, const PolycuboidMap& map, const TetTop
   if (report.bare_sides > 0) fail("blocks have sides on no chart", {}, tets, map);
   if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
   if (report.nonmanifold_edges > 0) fail("charts touch, the boundary of the blocks is not a manifold", report.touching_charts, tets, map);
-  if (report.euler != euler_characteristic(tets.triangles)) fail("the blocks do not have the topology of the solid", {}, tets, map);
+  if (const int euler = euler_characteristic(tets.triangles); report.euler != euler) {
+    fail("the blocks do not have the topology of the solid, Euler characteristic " + std::to_string(report.euler) + " instead of " +
+             std::to_string(euler),
+         {}, tets, map);
+  }
   monitor.progress("blocks", 1);
   return complex;
 }

@@ -188,6 +188,7 @@ struct HexCommand {
     command.add_option("--scale", scale, "Edge length of the hexahedra over the mean tet edge in the map; 0: coarsest")
         ->capture_default_str()
         ->check(CLI::Range(0.0, 1e6));
+    command.add_option("--min-layers", min_layers, "Elements through every wall at least")->capture_default_str()->check(CLI::Range(1, 1000));
     command.add_flag("--subdivide", subdivide, "Subdivide the coarsest mesh to this scale: its cells are the blocks");
     command.add_option("--report", report, "Write a report as JSON");
     command.add_option("--problem", problem, "Write the quantization problem as JSON, to compare solvers");
@@ -200,6 +201,7 @@ struct HexCommand {
     const PolycuboidInput input = read_polycuboid(tets, labels, map);
     HexMapOptions options;
     options.quantize.scale = scale;
+    options.quantize.min_layers = min_layers;
     options.subdivide = subdivide;
     const HexMapResult result = hex_map(input, options, monitor);
     if (output.ends_with(".vtu")) {
@@ -216,6 +218,7 @@ struct HexCommand {
   CLI::App& command;
   std::string tets, labels, map, output, report, problem;
   double scale = 1;
+  int min_layers = 1;
   bool subdivide = false;
   bool verbose = false;
 };

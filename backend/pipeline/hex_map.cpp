@@ -187,6 +187,7 @@ HexMapResult hex_map(const PolycuboidInput& input, const BlockComplex& blocks, c
   QuantizeOptions quantize_options = options.quantize;
   if (options.scale_by_tets && quantize_options.scale > 0) quantize_options.scale = 1 / (options.quantize.scale * mean_edge(input));
   result.scale = quantize_options.scale;
+  result.options = quantize_options;
   auto start = Monitor::Clock::now();
   result.quantization = quantize(result.blocks, input.map, quantize_options, monitor);
   result.quantize_seconds = seconds_since(start);
@@ -248,6 +249,9 @@ std::string report_json(const PolycuboidInput& input, const HexMapResult& result
   json["collapsed_charts"] = result.blocks.collapsed;
   json["scale"] = result.scale;
   json["blocks"] = result.blocks.blocks.size();
+  std::vector<int> left = result.hexes.hex_block;
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  json["blocks_left"] = left.size();
   json["structure_cells"] = result.cells;
   json["hexes"] = result.hexes.mesh.hexes.size();
   json["nodes"] = result.hexes.mesh.points.size();
@@ -269,10 +273,8 @@ std::string report_json(const PolycuboidInput& input, const HexMapResult& result
 }
 
 std::string problem_json(const PolycuboidInput& input, const HexMapResult& result) {
-  QuantizeOptions options;
-  options.scale = result.scale;
-  const QuantizeProblem problem = build_problem(result.blocks, input.map, options);
-  const MonotonePaths paths(result.blocks, input.map, problem, options.separate_features);
+  const QuantizeProblem problem = build_problem(result.blocks, input.map, result.options);
+  const MonotonePaths paths(result.blocks, input.map, problem, result.options.separate_features);
   nlohmann::ordered_json json;
   for (int d = 0; d < 3; ++d) {
     nlohmann::ordered_json axis;

@@ -29,6 +29,7 @@ struct HexMapOptions {
 
 struct HexMapResult {
   double scale = 0;  ///< eta used
+  QuantizeOptions options;  ///< used, with that scale
   BlockComplex blocks;
   Quantization quantization;
   HexComplex hexes;
@@ -52,7 +53,8 @@ void write_vtu(const std::string& path, const HexComplex& hexes, const std::vect
 /// Medit file with hexahedra and boundary quads (reference: 1 + chart).
 void write_medit(const std::string& path, const HexComplex& hexes);
 
-/// JSON object: blocks, charts, hexes, objective, bound, gap, C2 rounds, nodes, seconds per stage, quality of the first geometry.
+/// JSON object: blocks, those left with extent by the integers (blocks_left), cells of the block structure, charts, hexes, objective, bound,
+/// gap, C2 rounds, nodes, seconds per stage, quality of the first geometry.
 std::string report_json(const PolycuboidInput& input, const HexMapResult& result);
 
 /// JSON object with the whole quantization problem (terms, constraints, block edges), for comparison with other solvers.

@@ -164,7 +164,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--scales", default="0.5,1,2,4,8,100")
     parser.add_argument("--maps", default="B0,pente,cup,S3")
-    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--repeat", type=int, default=5)
     options = parser.parse_args()
     failures = 0
     print(f"{'map':8}{'scale':>7}{'blocks':>8}{'hexes':>8}{'objective':>14}{'HiGHS':>14}{'ms':>9}{'HiGHS ms':>10}{'times':>7}")

@@ -100,6 +100,9 @@ def write(obj, options):
         elif option["type"] == "frame":
             # as on the command line: X / Y
             value = value if isinstance(value, str) else "/".join(",".join(repr(float(number)) for number in axis) for axis in value)
+        elif isinstance(value, dict):
+            # divisions and sizes, as on the command line
+            value = ",".join("{}={}".format(what if isinstance(what, str) else "Face{}".format(what), value[what]) for what in value)
         if _current(obj, option) != value:
             setattr(obj, property_name(option), value)
 

@@ -5,7 +5,7 @@
 
 #include "cad/cad.h"
 #include "core/error.h"
-#include "pipeline/label_part.h"
+#include "pipeline/inspect.h"
 #include "pipeline/pipeline.h"
 #include "support/shapes.h"
 
@@ -91,6 +91,9 @@ TEST(Labels, OfMadePartsAreValidAndMonotone) {
     const LabelledPart labelled = label_part(CadModel::from_brep(p.brep), MeshOptions(), Monitor());
     EXPECT_TRUE(labelled.label_report.valid()) << p.name;
     EXPECT_EQ(labelled.label_report.turning_points, 0) << p.name;
+    const Inspection found = inspect(labelled);
+    EXPECT_TRUE(found.violations.valid()) << p.name;
+    EXPECT_TRUE(found.stray_charts.empty()) << p.name;
     // A few tets at the tips of boundaries may fold; the blocks read the map by its degree.
     EXPECT_LE(1000 * labelled.flipped, static_cast<int>(labelled.tets.tets.size())) << p.name;
   }

@@ -21,7 +21,7 @@ LabelledPart labelled(const CadModel& model, const FaceLabels& labels, const Fra
   MeshOptions options;
   options.labels = labels;
   options.frame = frame;
-  return label_part(model, options, Monitor());
+  return label_part(model, options, Monitor(), Until::kLabels);
 }
 
 std::string complaint(const CadModel& model, const FaceLabels& labels, const FrameAxes& frame = {}) {

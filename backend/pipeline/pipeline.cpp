@@ -415,9 +415,20 @@ class Run {
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
   check(options, model.diagonal(), model.face_count(), model.edge_count());
+  check_divisions(model, options.divisions);
   const Pose pose = canonical_pose(model, options.frame);
   const MeshOptions posed = pose.posed(options);
-  MeshResult result = Run(pose, posed, monitor).run();
+  MeshResult result = [&] {
+    try {
+      return Run(pose, posed, monitor).run();
+    } catch (const StageFailed& e) {
+      if (options.labels.empty()) throw;
+      // What the user set is the first thing to look at.
+      std::string text = e.what();
+      for (const auto& [face, label] : options.labels) text += (&face == &options.labels.front().first ? ", with " : ", ") + name({2, face}) + "=" + label_name(label);
+      throw StageFailed(e.stage(), text + " set by hand", e.entities());
+    }
+  }();
   restore(pose, model, result.association, result.mesh, monitor);
   const QualitySummary quality = summarise(result.mesh);
   if (!(quality.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells lose their volume on the way back to the part's place");

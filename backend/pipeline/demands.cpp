@@ -175,6 +175,15 @@ void divide_edge(const Division& division, const std::vector<Run>& runs, const P
 
 }  // namespace
 
+void check_divisions(const CadModel& model, const Divisions& divisions) {
+  for (const Division& d : divisions) {
+    const std::string start = "--divisions: " + text_of(d) + ": ";
+    if (d.edge > 0 && model.edge(d.edge).seam) throw InvalidInput(start + "the edge is a seam, which meshes do not follow");
+    if (d.edge > 0 && model.edge(d.edge).degenerate) throw InvalidInput(start + "the edge is a point");
+    if (d.edge == 0 && d.faces[0] == d.faces[1]) throw InvalidInput(start + "both faces are the same");
+  }
+}
+
 QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
                                  const MeshOptions& options, double scale) {
   QuantizeOptions result;

@@ -8,6 +8,9 @@
 
 namespace polycube {
 
+/// Throws InvalidInput where the mesh cannot have a division: the edge is a seam or a point, the two faces are one.
+void check_divisions(const CadModel& model, const Divisions& divisions);
+
 /// `options` in the pose of the map; `scale`: cells per unit of the map. Throws StageFailed("quantize", ...) naming the entities when these
 /// blocks cannot keep a demand: faces that are nowhere opposite each other, an edge that does not run along the axes.
 QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,

@@ -141,6 +141,13 @@ TEST_F(Demands, UnknownAndUnsuitedEntitiesAreNamed) {
   EXPECT_THAT(complaint(plate_, options_), HasSubstr("Edge99"));
   options_.divisions = {{0, {1, 77}, 2, 2}};
   EXPECT_THAT(complaint(plate_, options_), HasSubstr("Face77"));
+  for (int e = 1; e <= plate_.edge_count(); ++e) {
+    if (!plate_.edge(e).seam) continue;
+    options_.divisions = {{e, {}, 2, 2}};
+    EXPECT_THAT(complaint(plate_, options_), HasSubstr("seam"));
+  }
+  options_.divisions = {{0, {2, 2}, 2, 2}};
+  EXPECT_THAT(complaint(plate_, options_), HasSubstr("same"));
   const Sides wall = faces_along(plate_, 2), length = faces_along(plate_, 0);
   options_.divisions = {{0, {std::min(wall.low, length.low), std::max(wall.low, length.low)}, 2, 2}};
   try {

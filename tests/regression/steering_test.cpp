@@ -198,5 +198,20 @@ TEST(Steering, ReachesTheMesh) {
   ASSERT_EQ(result.report.options.frame.size(), 2u);
 }
 
+// Each of the four sides could have its axis, all together they leave two directions without any side.
+TEST(Steering, AFailureNamesWhatWasSetByHand) {
+  const double a = 50 * std::numbers::pi / 180;
+  MeshOptions options;
+  options.size = 5;
+  options.frame = {Vec3(std::cos(a), std::sin(a), 0), Vec3(-std::sin(a), std::cos(a), 0)};
+  options.labels = {{1, 2}, {2, 3}, {3, 3}, {4, 2}};
+  try {
+    mesh(CadModel::from_brep(shapes::box(20, 20, 10)), options, Monitor());
+    FAIL() << "that has no mesh";
+  } catch (const StageFailed& e) {
+    EXPECT_THAT(e.what(), HasSubstr(", with Face1=+Y, Face2=-Y, Face3=-Y, Face4=+Y set by hand"));
+  }
+}
+
 }  // namespace
 }  // namespace polycube

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Quantization against HiGHS on the paper's mixed-integer formulation.
 
-Usage: compare_highs.py POLYCUBE MAPS_FOLDER [--scales 0.5,1,2,4,8,100] [--maps B0,pente,cup,S3] [--repeat 5]
+Usage: compare_highs.py POLYCUBE MAPS_FOLDER [--scales 0.5,1,2,4,8,100] [--maps NAME,NAME...] [--repeat 5]
 
 POLYCUBE is the command-line program. For every map NAME of the folder (NAME.tet.mesh, NAME.labels, NAME.polycuboid.mesh) and every scale it
 writes its problem and its solution; HiGHS (scipy.optimize.milp) solves the same problem with C2 as lazy constraints found by this
@@ -163,14 +163,15 @@ def main():
     parser.add_argument("polycube")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--scales", default="0.5,1,2,4,8,100")
-    parser.add_argument("--maps", default="B0,pente,cup,S3")
+    parser.add_argument("--maps", help="names; default: all")
     parser.add_argument("--repeat", type=int, default=5)
     options = parser.parse_args()
     failures = 0
     print(f"{'map':8}{'scale':>7}{'blocks':>8}{'hexes':>8}{'objective':>14}{'HiGHS':>14}{'ms':>9}{'HiGHS ms':>10}{'times':>7}")
     with tempfile.TemporaryDirectory() as folder:
         out, report_path, problem_path = (pathlib.Path(folder) / n for n in ("out.mesh", "report.json", "problem.json"))
-        for name in options.maps.split(","):
+        names = sorted(path.name.removesuffix(".tet.mesh") for path in options.folder.glob("*.tet.mesh"))
+        for name in options.maps.split(",") if options.maps else names:
             base = options.folder / name
             for scale in options.scales.split(","):
                 seconds = []

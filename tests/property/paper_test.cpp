@@ -110,10 +110,7 @@ TEST(PaperExamples, EveryScaleIsValidAndProved) {
     PolycuboidInput input;
     {
       Example e = testing::tetrahedralise(shapes[i], 3);
-      std::uniform_real_distribution<double> unit(-0.3, 0.3);
-      std::vector<double> values;
-      for (const Chart& c : e.map.charts) values.push_back(c.value + unit(random));
-      testing::set_values(e, values);
+      testing::shift_charts(e, random, 0.3);
       testing::disturb(e, random, 0.05, 0.7);
       flipped += testing::flipped_tets(e);
       input.tets = e.tets;

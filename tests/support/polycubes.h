@@ -496,4 +496,27 @@ inline Cells random_cells(std::mt19937& random, int boxes, int size) {
   return voxels(places);
 }
 
+/// Other values for the charts, each moved by up to `spread`.
+inline void shift_charts(Example& e, std::mt19937& random, double spread) {
+  std::uniform_real_distribution<double> unit(-spread, spread);
+  std::vector<double> values;
+  for (const Chart& c : e.map.charts) values.push_back(c.value + unit(random));
+  set_values(e, values);
+}
+
+/// A strip with `count` pairs of dents as in the paper's figure 8, side by side, no two alike.
+inline Example row_of_dents(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::set<Place3> places;
+  add_box(places, {0, 0, 0}, {10 * count, 10, 1});
+  for (int i = 0; i < count; ++i) {
+    const int x = 10 * i;
+    remove_box(places, {x + 2, 0, 0}, {x + 5, 5, 1});
+    remove_box(places, {x + 5, 6, 0}, {x + 8, 10, 1});
+  }
+  Example e = tetrahedralise(voxels(places), 1);
+  shift_charts(e, random, 0.2);
+  return e;
+}
+
 }  // namespace polycube::testing

@@ -34,28 +34,10 @@ TEST(Quantize, BoxTakesTheNearestIntegers) {
   EXPECT_NEAR(q.objective, 3 * 0.2 + 2 * 0.2 + 6 * 0.4, 1e-9);
 }
 
-/// A strip with `count` pairs of dents as in figure 8, side by side, no two alike.
-Example row_of_dents(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::set<Place3> places;
-  testing::add_box(places, {0, 0, 0}, {10 * count, 10, 1});
-  for (int i = 0; i < count; ++i) {
-    const int x = 10 * i;
-    testing::remove_box(places, {x + 2, 0, 0}, {x + 5, 5, 1});
-    testing::remove_box(places, {x + 5, 6, 0}, {x + 8, 10, 1});
-  }
-  Example e = testing::tetrahedralise(testing::voxels(places), 1);
-  std::uniform_real_distribution<double> unit(-0.2, 0.2);
-  std::vector<double> values;
-  for (const Chart& c : e.map.charts) values.push_back(c.value + unit(random));
-  testing::set_values(e, values);
-  return e;
-}
-
 // Every pair is a choice of its own. Without rewards the tree multiplies them: 181 nodes instead of 37.
 TEST(Quantize, IndependentChoicesAddUp) {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Example e = row_of_dents(24, seed);
+    const Example e = testing::row_of_dents(24, seed);
     const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
     for (double scale : {0.0, 0.1, 0.3}) {
       QuantizeOptions options;
@@ -133,7 +115,7 @@ TEST(Quantize, CoarsestThenFinerOnTheSameBlocks) {
 }
 
 TEST(Quantize, PastTheNodeLimitTheBestFoundComesWithItsGap) {
-  const Example e = row_of_dents(24, 1);
+  const Example e = testing::row_of_dents(24, 1);
   const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
   QuantizeOptions options;
   options.scale = 0;

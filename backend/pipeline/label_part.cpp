@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "label/strays.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "tet/tet.h"
@@ -38,6 +39,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   label_options.frame_given = true;
   label_options.frame = pose.frame;
   part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
+  absorb_strays(part.tets, part.labelling, monitor);
   part.features = find_features(pose.model, part.tets, part.labelling, options.feature_angle * std::numbers::pi / 180, monitor);
   book("label");
   if (until == Until::kMap) {

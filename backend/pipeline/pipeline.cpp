@@ -18,6 +18,7 @@
 #include "hex/hex.h"
 #include "label/features.h"
 #include "label/label.h"
+#include "label/strays.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
@@ -218,7 +219,11 @@ class Run {
     label_options.face_labels = options_.labels;
     label_options.frame_given = true;
     label_options.frame = pose_.frame;
-    const Labelling labelling = stage("label", [&] { return label(model_, s.tets, label_options, monitor_); });
+    const Labelling labelling = stage("label", [&] {
+      Labelling found = label(model_, s.tets, label_options, monitor_);
+      absorb_strays(s.tets, found, monitor_);
+      return found;
+    });
     s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, c.min_bend, monitor_); });
     if (!c.features) s.features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -173,6 +172,58 @@ void divide_edge(const Division& division, const std::vector<Run>& runs, const P
   }
 }
 
+/// Elements that a division got.
+struct Found {
+  int least = 0, most = 0;  ///< both 0 where there are none
+  bool meets(const Division& d) const { return least >= d.at_least && most <= d.at_most; }
+};
+
+std::vector<Found> find_divisions(const HexMesh& mesh, const Association& association, const Divisions& divisions) {
+  // Columns of cells from boundary quad to boundary quad.
+  std::map<std::array<int, 4>, std::vector<std::array<int, 2>>> cells;  // hex, side
+  std::map<std::array<int, 4>, int> quad_at;
+  for (int h = 0; h < static_cast<int>(mesh.hexes.size()); ++h) {
+    for (int side = 0; side < 6; ++side) {
+      std::array<int, 4> face;
+      for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[h][kHexFaces[side][k]];
+      cells[sorted(face)].push_back({h, side});
+    }
+  }
+  for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) quad_at[sorted(association.quads[q])] = q;
+  const auto on = [&](int quad, int face) {
+    const auto& faces = association.patches[association.quad_patch[quad]];
+    return std::binary_search(faces.begin(), faces.end(), face);
+  };
+  std::vector<Found> result;
+  for (const Division& d : divisions) {
+    Found& found = result.emplace_back();
+    if (d.edge > 0) {
+      found.least = found.most = static_cast<int>(std::count(association.segment_edge.begin(), association.segment_edge.end(), d.edge));
+      continue;
+    }
+    for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
+      if (!on(q, d.faces[0])) continue;
+      auto key = sorted(association.quads[q]);
+      int length = 0, hex = -1;
+      for (;;) {
+        const auto& behind = cells.at(key);
+        const auto next = std::find_if(behind.begin(), behind.end(), [&](const auto& cell) { return cell[0] != hex; });
+        if (next == behind.end() || length > static_cast<int>(mesh.hexes.size())) break;
+        hex = (*next)[0];
+        ++length;
+        std::array<int, 4> face;
+        for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[hex][kHexFaces[(*next)[1] ^ 1][k]];
+        key = sorted(face);
+      }
+      const auto end = quad_at.find(key);
+      if (end == quad_at.end() || !on(end->second, d.faces[1])) continue;
+      found.least = found.most == 0 ? length : std::min(found.least, length);
+      found.most = std::max(found.most, length);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 void check_divisions(const CadModel& model, const Divisions& divisions) {
@@ -221,60 +272,27 @@ QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, con
   return result;
 }
 
+Divisions allow_for_padding(const HexMesh& mesh, const Association& association, const Divisions& divisions) {
+  Divisions fewer = divisions;
+  if (divisions.empty()) return fewer;
+  const std::vector<Found> found = find_divisions(mesh, association, divisions);
+  for (std::size_t i = 0; i < fewer.size(); ++i) {
+    const int surplus = found[i].most - divisions[i].at_most;
+    if (surplus <= 0 || divisions[i].at_most - surplus < 1) continue;
+    fewer[i].at_most -= surplus;
+    fewer[i].at_least = std::max(1, fewer[i].at_least - surplus);
+  }
+  return fewer;
+}
+
 std::vector<std::string> unmet_divisions(const HexMesh& mesh, const Association& association, const Divisions& divisions) {
   std::vector<std::string> lines;
   if (divisions.empty()) return lines;
-  const auto complain = [&](const Division& d, std::size_t found) {
-    lines.push_back("division " + text_of(d) + ": the mesh has " + std::to_string(found) + " elements there");
-  };
-  // Columns of cells from boundary quad to boundary quad.
-  std::map<std::array<int, 4>, std::vector<std::array<int, 2>>> cells;  // hex, side
-  std::map<std::array<int, 4>, int> quad_at;
-  for (int h = 0; h < static_cast<int>(mesh.hexes.size()); ++h) {
-    for (int side = 0; side < 6; ++side) {
-      std::array<int, 4> face;
-      for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[h][kHexFaces[side][k]];
-      cells[sorted(face)].push_back({h, side});
-    }
-  }
-  for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) quad_at[sorted(association.quads[q])] = q;
-  const auto on = [&](int quad, int face) {
-    const auto& faces = association.patches[association.quad_patch[quad]];
-    return std::binary_search(faces.begin(), faces.end(), face);
-  };
-  for (const Division& d : divisions) {
-    if (d.edge > 0) {
-      const auto found = static_cast<std::size_t>(std::count(association.segment_edge.begin(), association.segment_edge.end(), d.edge));
-      if (found < static_cast<std::size_t>(d.at_least) || found > static_cast<std::size_t>(d.at_most)) complain(d, found);
-      continue;
-    }
-    std::optional<std::size_t> wrong;
-    bool any = false;
-    for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
-      if (!on(q, d.faces[0])) continue;
-      auto key = sorted(association.quads[q]);
-      std::size_t length = 0;
-      int hex = -1;
-      for (;;) {
-        const auto& behind = cells.at(key);
-        const auto next = std::find_if(behind.begin(), behind.end(), [&](const auto& cell) { return cell[0] != hex; });
-        if (next == behind.end() || length > mesh.hexes.size()) break;
-        hex = (*next)[0];
-        ++length;
-        std::array<int, 4> face;
-        for (int k = 0; k < 4; ++k) face[k] = mesh.hexes[hex][kHexFaces[(*next)[1] ^ 1][k]];
-        key = sorted(face);
-      }
-      const auto end = quad_at.find(key);
-      if (end == quad_at.end() || !on(end->second, d.faces[1])) continue;
-      any = true;
-      if (length < static_cast<std::size_t>(d.at_least) || length > static_cast<std::size_t>(d.at_most)) wrong = length;
-    }
-    if (!any) {
-      complain(d, 0);
-    } else if (wrong) {
-      complain(d, *wrong);
-    }
+  const std::vector<Found> found = find_divisions(mesh, association, divisions);
+  for (std::size_t i = 0; i < divisions.size(); ++i) {
+    if (found[i].meets(divisions[i])) continue;
+    const std::string most = found[i].most == found[i].least ? "" : " to " + std::to_string(found[i].most);
+    lines.push_back("division " + text_of(divisions[i]) + ": the mesh has " + std::to_string(found[i].least) + most + " elements there");
   }
   return lines;
 }

@@ -16,6 +16,10 @@ void check_divisions(const CadModel& model, const Divisions& divisions);
 QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
                                  const MeshOptions& options, double scale);
 
+/// Fewer divisions where padding made more of them than were asked for, so that they come out right the next time; the same where nothing can
+/// be done about it.
+Divisions allow_for_padding(const HexMesh& mesh, const Association& association, const Divisions& divisions);
+
 /// One line per division that the mesh does not have (padding adds cells where it must).
 std::vector<std::string> unmet_divisions(const HexMesh& mesh, const Association& association, const Divisions& divisions);
 

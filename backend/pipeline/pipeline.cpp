@@ -143,7 +143,8 @@ class Run {
         if (!c.give_up && fits_left_ <= kReservedFits) continue;
         if (c.give_up && best) break;  // edges are given up only where nothing else came out
         if (c.min_bend == kNoEdge) fits_left_ = kLastFits;
-        MeshResult result = attempt(c, !best && !failure);
+        MeshResult result = attempt(c, !best && !failure, options_.divisions);
+        retry_padded(c, result);
         if (!best || rank(result) > rank(*best)) best = std::move(result);
         if (good_enough(*best)) break;
       } catch (const StageFailed& e) {
@@ -240,13 +241,30 @@ class Run {
     s.blocks = stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
   }
 
-  MeshResult attempt(const Candidate& c, bool first) {
+  // Padding can add cells to a division that has a maximum: fewer are asked for then.
+  void retry_padded(const Candidate& c, MeshResult& result) {
+    const auto unmet = [&](const MeshResult& r) { return unmet_divisions(r.mesh, r.association, options_.divisions).size(); };
+    const Divisions fewer = allow_for_padding(result.mesh, result.association, options_.divisions);
+    if (fewer == options_.divisions) return;
+    try {
+      MeshResult again = attempt(c, false, fewer);
+      if (unmet(again) < unmet(result)) result = std::move(again);
+    } catch (const StageFailed& e) {
+      monitor_.log("with fewer divisions: " + e.stage() + ": " + e.what());
+    } catch (const InvalidInput& e) {
+      monitor_.log(std::string("with fewer divisions: ") + e.what());
+    }
+  }
+
+  MeshResult attempt(const Candidate& c, bool first, const Divisions& divisions) {
     const Structure& s = structure(c);
     MeshResult result;
     result.report = report_;
     const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
     const Quantization quantization = stage("quantize", [&] {
-      return quantize(s.blocks, s.map, quantize_options(model_, s.tets, s.map, s.blocks, options_, scale), monitor_);
+      MeshOptions demanded = options_;
+      demanded.divisions = divisions;
+      return quantize(s.blocks, s.map, quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale), monitor_);
     });
     HexComplex complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, quantization, monitor_); });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");

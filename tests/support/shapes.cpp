@@ -88,6 +88,10 @@ std::string cone(double radius, double top_radius, double height) { return text(
 std::string sphere(double radius) { return text(BRepPrimAPI_MakeSphere(radius).Solid()); }
 std::string torus(double major, double minor) { return text(BRepPrimAPI_MakeTorus(major, minor).Solid()); }
 
+std::string tube(double radius, double bore, double height) {
+  return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), BRepPrimAPI_MakeCylinder(bore, height).Shape()).Shape()));
+}
+
 std::string plate_with_hole(double x, double y, double z, double radius) {
   const gp_Ax2 axis({x / 2, y / 2, -z}, {0, 0, 1});
   return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {x, y, z}), BRepPrimAPI_MakeCylinder(axis, radius, 3 * z).Shape()).Shape()));

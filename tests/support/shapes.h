@@ -10,6 +10,7 @@ std::string cylinder(double radius, double height);                 ///< about +
 std::string cone(double radius, double top_radius, double height);  ///< top_radius 0: with its tip
 std::string sphere(double radius);                                  ///< centre at the origin
 std::string torus(double major, double minor);                      ///< about +Z, centre at the origin
+std::string tube(double radius, double bore, double height);        ///< about +Z from the origin
 std::string plate_with_hole(double x, double y, double z, double radius);  ///< box with a through bore along Z in its middle
 std::string l_bracket(double leg, double thickness, double width);  ///< L in the XZ plane, extruded along Y; one concave edge
 std::string notched_box(double size);                               ///< cube minus a corner cube of half its size

@@ -121,6 +121,23 @@ TEST_F(Demands, TurnedAndScaledPartsKeepThem) {
   EXPECT_TRUE(unmet_divisions(result.mesh, result.association, options_.divisions).empty());
 }
 
+// The tube's wall is padded under its outer face: what is asked for is what comes out nevertheless.
+TEST(PaddedDemands, AreExactToo) {
+  const CadModel tube = CadModel::from_brep(shapes::tube(10, 7, 20));
+  std::vector<int> round;
+  for (int f = 1; f <= tube.face_count(); ++f) {
+    if (tube.face(f).kind == SurfaceKind::kCylinder) round.push_back(f);
+  }
+  ASSERT_EQ(round.size(), 2u);
+  MeshOptions options;
+  options.size = 3;
+  options.divisions = {{0, {round[0], round[1]}, 4, 4}};
+  const MeshResult result = mesh(tube, options, Monitor());
+  EXPECT_TRUE(result.report.warnings.empty());
+  EXPECT_TRUE(unmet(result, options.divisions[0]).empty());
+  EXPECT_GT(result.report.padded_hexes, 0);
+}
+
 TEST_F(Demands, ContradictionsAreNamed) {
   options_.min_layers = 3;
   options_.divisions = {between(faces_along(plate_, 2), 1, 2)};

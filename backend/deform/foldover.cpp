@@ -11,8 +11,8 @@ namespace {
 constexpr double kLambda = 0.5;      // weight of keeping volume against keeping angles
 constexpr int kOuter = 12;           // epsilon updates
 constexpr int kInner = 25;           // L-BFGS steps between them
-constexpr int kPatience = 3;         // updates without fewer flips before it ends
-constexpr int kRunaway = 8;          // times the flips at the start: it has run away
+constexpr int kPatience = 6;         // updates without fewer flips before it ends
+constexpr int kRunaway = 60;         // times the flips at the start: it has run away
 constexpr std::size_t kMemory = 6;
 
 class Problem {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <set>
 
@@ -25,6 +24,8 @@ constexpr double kLevelCosine = 0.996;
 // Normals within about 10 degrees of their mean: as good as a plane.
 constexpr double kFlatCosine = 0.985;
 constexpr double kSharpBend = std::numbers::pi / 6;
+// Where the rise of strictness begins.
+constexpr double kFirstStrictness = 10;
 
 struct Setup {
   const CadModel& model;
@@ -46,20 +47,16 @@ Vec3 triangle_normal(const TetMesh& mesh, int t) {
 // On cones and other surfaces round an axis of the frame the labels across the axis are preferred: a ring-shaped chart border in the middle of
 // such a face would cut it where nothing in the CAD asks for it, and its outer rim could only be reached diagonally. Tori are treated as the fillets
 // are that they continue.
-void prefer_labels_across(Setup& s) {
-  for (int t = 0; t < static_cast<int>(s.normal.size()); ++t) {
-    const CadFace& face = s.model.face(s.mesh.triangle_face[t]);
-    const bool ring = face.kind == SurfaceKind::kTorus && s.options.widest_bend > std::numbers::pi / 4;
-    const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kRevolution || ring;
-    if (!round) continue;
-    const Vec3 axis = s.frame * face.axis;
-    int k = 0;
-    if (axis.cwiseAbs().maxCoeff(&k) < kAlignedCosine) continue;
-    Vec3 n = s.normal[t];
-    if (std::abs(n[k]) > 0.97) continue;
-    n[k] *= 0.4;
-    s.normal[t] = n.normalized();
-  }
+Vec3 as_seen(const Setup& s, int face_id, Vec3 n) {
+  const CadFace& face = s.model.face(face_id);
+  const bool ring = face.kind == SurfaceKind::kTorus && s.options.widest_bend > std::numbers::pi / 4;
+  const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kRevolution || ring;
+  if (!round) return n;
+  const Vec3 axis = s.frame * face.axis;
+  int k = 0;
+  if (axis.cwiseAbs().maxCoeff(&k) < kAlignedCosine || std::abs(n[k]) > 0.97) return n;
+  n[k] *= 0.4;
+  return n.normalized();
 }
 
 double data_cost(const Vec3& normal, int label) {
@@ -94,7 +91,7 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     if (cosine < std::cos(options.widest_bend)) s.whole[f] = 0;
     if (cosine < kFlatCosine) s.flat[f] = 0;
   }
-  prefer_labels_across(s);
+  for (std::size_t t = 0; t < n; ++t) s.normal[t] = as_seen(s, mesh.triangle_face[t], s.normal[t]);
   return s;
 }
 
@@ -324,18 +321,19 @@ std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, co
       const bool before = (p / 64 + 1) % count == q / 64;
       if (!before && (q / 64 + 1) % count != p / 64) continue;
       const double cut = sectors.cuts[face][before ? p / 64 : q / 64], sign = before ? -1 : 1;
-      result.push_back({a, b, [&s, &sectors, face, cut, sign](int n) { return sign * std::sin(angle_on(s, sectors, face, s.mesh.points[n]) - cut); }});
+      result.push_back({a, b, [&s, &sectors, face, cut, sign](int n) {
+                          const double beyond = angle_on(s, sectors, face, s.mesh.points[n]) - cut;
+                          return std::cos(beyond) > 0 ? sign * std::sin(beyond) : kNoOpinion;  // the sine is zero on the far side too
+                        }});
       continue;
     }
     Vec3 direction = Vec3::Zero();
     direction[label_axis(l)] += label_sign(l);
     direction[label_axis(m)] -= label_sign(m);
-    auto normal = std::make_shared<std::map<int, Vec3>>();
-    for (std::size_t t = 0; t < s.normal.size(); ++t) {
-      if (s.mesh.triangle_face[t] != face) continue;
-      for (int n : s.mesh.triangles[t]) normal->try_emplace(n, Vec3::Zero()).first->second += s.area[t] * s.normal[t];
-    }
-    result.push_back({a, b, [normal, direction](int n) { return normal->at(n).normalized().dot(direction); }});
+    result.push_back({a, b, [&s, face, direction](int n) {
+                        const FacePoint at = s.model.project_to_face(face, s.mesh.points[n]);
+                        return as_seen(s, face, s.frame * s.model.face_normal(face, at.uv)).dot(direction);
+                      }});
   }
   return result;
 }
@@ -372,7 +370,11 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   double edge = 0;
   for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
   edge /= static_cast<double>(mesh.triangles.size());
-  region_label = repair(graph, points, std::move(region_label), 0.75 * edge, options.strictness, monitor);
+  // Violations become dearer step by step: what a change of little cost mends is mended by it.
+  for (double strictness = std::min(kFirstStrictness, options.strictness);; strictness *= 2) {
+    region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), monitor);
+    if (strictness >= options.strictness) break;
+  }
 
   Labelling result;
   result.frame = s.frame;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 
 #include "core/monitor.h"
 #include "label/regions.h"
@@ -11,11 +12,14 @@ namespace polycube {
 /// A function on the mesh points of one CAD face that is positive in one region and negative in another; their border belongs at zero.
 struct BorderFunction {
   int positive = 0, negative = 0;       ///< regions
-  std::function<double(int)> value;     ///< per mesh point
+  std::function<double(int)> value;     ///< per mesh point; kNoOpinion far from the border
 };
 
+inline constexpr double kNoOpinion = std::numeric_limits<double>::infinity();
+
 /// Cuts the mesh along the zeros of the functions (points within a fifth of an edge of it are taken as on it) and gives the triangles of the two regions
-/// by sign. Returns the region of every triangle of the changed mesh.
+/// by sign. Pieces of a region that come off it and are no larger than a few triangles join the region beside them. Returns the region of every triangle
+/// of the changed mesh.
 std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_region, const std::vector<BorderFunction>& borders, const Monitor& monitor);
 
 /// Splits surface edges inside a chart whose two ends the charts tie to one line: such an edge, and the triangles beside it, would have no room in

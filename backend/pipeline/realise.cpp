@@ -21,6 +21,18 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     for (int n : tets.segments[i]) edges_at[n].push_back(tets.segment_edge[i]);
   }
   RealisedMap result;
+  const auto without = [&](const auto& which) {
+    for (FeatureEdge& e : features.edges) {
+      if (e.capture != EdgeCapture::kFeature || !which(e.edge)) continue;
+      e.capture = EdgeCapture::kLost;
+      e.reason = "the map folds there";
+    }
+    std::erase_if(features.charts, [&](const FeatureChart& f) { return which(f.edge); });
+  };
+  const auto give_up = [&] {
+    without([](int) { return true; });
+    return bare;
+  };
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Chart> charts;
     for (const FeatureChart& f : features.charts) charts.push_back(f.chart);
@@ -37,18 +49,13 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     int worst = 0;
     for (const FeatureChart& f : features.charts) worst = std::max(worst, blame[f.edge]);
     if (worst == 0) break;
-    if (round + 1 == kRounds) return bare;
+    if (round + 1 == kRounds) return give_up();
     // Those that fold much go first: others may only stand beside them.
-    for (FeatureEdge& e : features.edges) {
-      if (e.capture != EdgeCapture::kFeature || 3 * blame[e.edge] < worst) continue;
-      e.capture = EdgeCapture::kLost;
-      e.reason = "the map folds there";
-    }
-    std::erase_if(features.charts, [&](const FeatureChart& f) { return 3 * blame[f.edge] >= worst; });
+    without([&](int e) { return 3 * blame[e] >= worst; });
     if (features.charts.empty()) return bare;
   }
   // Folds that cannot be blamed on single features: none of them is worth it.
-  return result.report.flipped <= bare.report.flipped + 5 ? result : bare;
+  return result.report.flipped <= bare.report.flipped + 5 ? result : give_up();
 }
 
 }  // namespace polycube

@@ -1,6 +1,5 @@
 #include "label/straighten.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -13,63 +12,6 @@ namespace {
 
 // A point nearer to the border than this share of the edge that crosses it is put on the border.
 constexpr double kSnap = 0.2;
-// A piece of a region with less than this share of it, or with no more triangles, is a stray.
-constexpr double kStrayShare = 0.02;
-constexpr std::size_t kStrayTriangles = 3;
-
-// The cuts can leave slivers of one region inside another: they join the neighbour that they share most border with, of their own face if there is one.
-void absorb_strays(const TetMesh& mesh, std::vector<int>& region) {
-  const auto neighbours = triangle_neighbours(mesh.triangles);
-  const auto length = [&](int t, int k) { return (mesh.points[mesh.triangles[t][k]] - mesh.points[mesh.triangles[t][(k + 1) % 3]]).norm(); };
-  for (int pass = 0; pass < 3; ++pass) {
-    std::vector<char> seen(mesh.triangles.size(), 0);
-    struct Piece {
-      double area = 0;
-      std::vector<int> triangles;
-    };
-    std::map<int, std::vector<Piece>> pieces;  // per region
-    for (int seed = 0; seed < static_cast<int>(mesh.triangles.size()); ++seed) {
-      if (seen[seed]) continue;
-      Piece piece;
-      piece.triangles = {seed};
-      seen[seed] = 1;
-      for (std::size_t i = 0; i < piece.triangles.size(); ++i) {
-        const int t = piece.triangles[i];
-        const Triangle& tri = mesh.triangles[t];
-        piece.area += (mesh.points[tri[1]] - mesh.points[tri[0]]).cross(mesh.points[tri[2]] - mesh.points[tri[0]]).norm() / 2;
-        for (int n : neighbours[t]) {
-          if (n < 0 || seen[n] || region[n] != region[seed]) continue;
-          seen[n] = 1;
-          piece.triangles.push_back(n);
-        }
-      }
-      pieces[region[seed]].push_back(std::move(piece));
-    }
-    bool changed = false;
-    for (const auto& [id, list] : pieces) {
-      double largest = 0;
-      for (const Piece& p : list) largest = std::max(largest, p.area);
-      for (const Piece& p : list) {
-        if (p.area == largest || (p.area > kStrayShare * largest && p.triangles.size() > kStrayTriangles)) continue;
-        std::map<std::pair<bool, int>, double> border;  // (same face, region)
-        for (int t : p.triangles) {
-          for (int k = 0; k < 3; ++k) {
-            const int n = neighbours[t][k];
-            if (n >= 0 && region[n] != id) border[{mesh.triangle_face[n] == mesh.triangle_face[t], region[n]}] += length(t, k);
-          }
-        }
-        if (border.empty()) continue;
-        const bool same_face = border.rbegin()->first.first;
-        const auto best = std::max_element(border.begin(), border.end(), [&](const auto& a, const auto& b) {
-          return std::pair(a.first.first == same_face, a.second) < std::pair(b.first.first == same_face, b.second);
-        });
-        for (int t : p.triangles) region[t] = best->first.second;
-        changed = true;
-      }
-    }
-    if (!changed) break;
-  }
-}
 
 }  // namespace
 
@@ -128,7 +70,6 @@ std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_regio
       if (sum != 0 && sum < kNoOpinion && sum > -kNoOpinion) region[t] = sum > 0 ? border.positive : border.negative;
     }
   }
-  absorb_strays(mesh, region);
   return region;
 }
 

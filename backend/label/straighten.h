@@ -18,8 +18,7 @@ struct BorderFunction {
 inline constexpr double kNoOpinion = std::numeric_limits<double>::infinity();
 
 /// Cuts the mesh along the zeros of the functions (points within a fifth of an edge of it are taken as on it) and gives the triangles of the two regions
-/// by sign. Pieces of a region that come off it and are no larger than a few triangles join the region beside them. Returns the region of every triangle
-/// of the changed mesh.
+/// by sign. Returns the region of every triangle of the changed mesh.
 std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_region, const std::vector<BorderFunction>& borders, const Monitor& monitor);
 
 /// Splits surface edges inside a chart whose two ends the charts tie to one line: such an edge, and the triangles beside it, would have no room in

@@ -43,12 +43,12 @@ constexpr int kRelaxRounds = 5;
 constexpr int kMaxFits = 16;
 // Fits after which a complete mesh with poor cells is good enough.
 constexpr int kPatience = 6;
-// Those kept back for the candidates that may give up edges, while there is no mesh at all.
+// Those kept back for giving up edges, while there is no mesh at all.
 constexpr int kReservedFits = 8;
 // A bend that no CAD edge reaches, radians.
 constexpr double kNoEdge = 4;
-// The last candidate may always try this often.
-constexpr int kLastFits = 3;
+// The last candidates may always try this often.
+constexpr int kLastFits = 4;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -59,7 +59,6 @@ struct Candidate {
   double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path
   bool features = true;       // feature charts at all
   double refine = 1;          // on the number of cells along an edge
-  bool give_up = false;       // may CAD edges be given up where cells stay inverted?
   double tet_size = 1;        // on the size of the tets
   double widest_bend = LabelOptions{}.widest_bend;
 };
@@ -73,10 +72,9 @@ struct Structure {
   std::optional<StageFailed> failure;
 };
 
+/// Those that keep every CAD edge.
 std::vector<Candidate> candidates(const MeshOptions& options) {
-  const double smooth = options.feature_angle * std::numbers::pi / 180;
-  const double sharp = std::max(smooth, std::numbers::pi / 18);
-  const Candidate halved{"all CAD edges", 100, smooth};
+  const Candidate halved{"all CAD edges", 100, options.feature_angle * std::numbers::pi / 180};
   Candidate whole = halved;
   whole.name += ", fillets in one chart";
   whole.widest_bend = kFilletsWhole;
@@ -94,21 +92,28 @@ std::vector<Candidate> candidates(const MeshOptions& options) {
   if (!options.coarsest) add(", finer", [](Candidate& c) { c.refine = 1.25; });
   // Another tet mesh gives a slightly other map, and with it other strips.
   add(", other tets", [](Candidate& c) { c.tet_size = 0.8; });
-  add(" but where cells stay inverted", [](Candidate& c) { c.give_up = true; });
-  add(" but where cells stay inverted, strict labels", [](Candidate& c) {
-    c.give_up = true;
-    c.strictness = 1000;
-  });
-  add(" but where cells stay inverted, other tets", [](Candidate& c) {
-    c.give_up = true;
-    c.tet_size = 0.8;
-  });
-  list.push_back({"sharp CAD edges, no feature charts", 100, sharp, false, 1, true});
-  // Better than nothing, for a look at volumes and modes: the surface alone.
-  list.push_back({"no CAD edges", 100, kNoEdge, false, 1, true});
-  list.push_back({"no CAD edges, other tets", 100, kNoEdge, false, 1, true, 0.8});
   return list;
 }
+
+/// Better than nothing, for a look at volumes and modes.
+std::vector<Candidate> last_candidates(const MeshOptions& options) {
+  const double sharp = std::max(options.feature_angle * std::numbers::pi / 180, std::numbers::pi / 18);
+  return {{"sharp CAD edges, no feature charts", 100, sharp, false},
+          {"no CAD edges", 100, kNoEdge, false},
+          {"no CAD edges, other tets", 100, kNoEdge, false, 1, 0.8}};
+}
+
+/// A candidate whose fit left inverted cells.
+struct Unfinished {
+  Candidate candidate;
+  const Structure* structure = nullptr;
+  HexComplex complex;
+  Quantization quantization;
+  AssociateOptions options;
+  PaddedMesh padded;
+  FitReport fitted;
+  MeshReport report;
+};
 
 class Run {
  private:
@@ -138,19 +143,41 @@ class Run {
   MeshResult run() {
     std::optional<MeshResult> best;
     std::optional<StageFailed> failure;
-    for (const Candidate& c : candidates(options_)) {
+    // True when the search may end.
+    const auto attempt_with = [&](const std::string& name, const auto& work) {
       try {
-        if (!c.give_up && fits_left_ <= kReservedFits) continue;
-        if (c.give_up && best) break;  // edges are given up only where nothing else came out
-        if (c.min_bend == kNoEdge) fits_left_ = kLastFits;
-        MeshResult result = attempt(c, !best && !failure, options_.divisions);
-        retry_padded(c, result);
+        MeshResult result = work();
         if (!best || rank(result) > rank(*best)) best = std::move(result);
-        if (good_enough(*best)) break;
       } catch (const StageFailed& e) {
-        monitor_.log("candidate '" + c.name + "' failed in " + e.stage() + ": " + e.what());
+        monitor_.log("candidate '" + name + "' failed in " + e.stage() + ": " + e.what());
         if (!failure) failure = e;
       }
+      return best && good_enough(*best);
+    };
+    for (const Candidate& c : candidates(options_)) {
+      if (fits_left_ <= kReservedFits) break;
+      const auto work = [&] {
+        MeshResult result = attempt(c, !best && !failure, options_.divisions);
+        retry_padded(c, result);
+        return result;
+      };
+      if (attempt_with(c.name, work)) break;
+    }
+    // CAD edges are given up only where nothing else came out, and first where least is wrong.
+    std::stable_sort(unfinished_.begin(), unfinished_.end(), [](const Unfinished& a, const Unfinished& b) {
+      const auto fault = [](const Unfinished& u) { return u.fitted.inverted + u.padded.association.lost_edges.size(); };
+      return fault(a) < fault(b);
+    });
+    for (Unfinished& u : unfinished_) {
+      if (best || fits_left_ <= 0) break;
+      attempt_with(u.candidate.name + " but where cells stay inverted", [&] { return relax(u); });
+    }
+    for (const Candidate& c : last_candidates(options_)) {
+      if (best) break;
+      unfinished_.clear();
+      fits_left_ = kLastFits;
+      attempt_with(c.name, [&] { return attempt(c, false, options_.divisions); });
+      if (!best && !unfinished_.empty()) attempt_with(c.name, [&] { return relax(unfinished_.front()); });
     }
     if (!best) throw failure ? *failure : StageFailed("pipeline", "no candidate left");
     best->report.stages = report_.stages;
@@ -257,67 +284,84 @@ class Run {
   }
 
   MeshResult attempt(const Candidate& c, bool first, const Divisions& divisions) {
-    const Structure& s = structure(c);
-    MeshResult result;
-    result.report = report_;
+    Unfinished u;
+    u.candidate = c;
+    u.report = report_;
+    u.structure = &structure(c);
+    const Structure& s = *u.structure;
     const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
-    const Quantization quantization = stage("quantize", [&] {
+    u.quantization = stage("quantize", [&] {
       MeshOptions demanded = options_;
       demanded.divisions = divisions;
       return quantize(s.blocks, s.map, quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale), monitor_);
     });
-    HexComplex complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, quantization, monitor_); });
-    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(complex.mesh.hexes.size()) + " hexes");
-
-    AssociateOptions associate_options;
-    associate_options.size = typical_edge(complex.mesh);
-    associate_options.edge_chains = edge_chains(model_, s.tets);
+    u.complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
+    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
+    u.options.size = typical_edge(u.complex.mesh);
+    u.options.edge_chains = edge_chains(model_, s.tets);
     for (const FeatureEdge& e : s.features.edges) {
       if (e.capture != EdgeCapture::kLost) continue;
-      if (bend(e.edge) < c.min_bend) associate_options.edge_chains[e.edge].clear();
+      if (bend(e.edge) < c.min_bend) u.options.edge_chains[e.edge].clear();
       if (bend(e.edge) >= c.min_bend && first) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
-    PaddedMesh padded = capture_and_fit(s, complex, std::move(associate_options), c.give_up ? kRelaxRounds : 0, result.report);
+    capture_and_fit(u, true);
+    if (u.fitted.inverted > 0) {
+      unfinished_.push_back(std::move(u));
+      throw inverted(unfinished_.back());
+    }
+    return finished(std::move(u));
+  }
+
+  // A mesh that misses an edge is worth more than none: those that inverted cells stand on are given up, smooth ones first.
+  MeshResult relax(Unfinished& u) {
+    for (int round = 0; round < kRelaxRounds; ++round) {
+      if (!give_up(u.padded, kSmoothBend, u.options) && !give_up(u.padded, std::numbers::pi, u.options)) break;
+      capture_and_fit(u, false);
+      if (u.fitted.inverted == 0) return finished(std::move(u));
+    }
+    throw inverted(u);
+  }
+
+  static StageFailed inverted(const Unfinished& u) {
+    std::vector<CadRef> faces;
+    for (int f : u.fitted.bad_faces) faces.push_back({2, f});
+    return StageFailed("fit", std::to_string(u.fitted.inverted) + " cells stay inverted", faces);
+  }
+
+  MeshResult finished(Unfinished u) {
+    gate(u.padded);
+    MeshResult result;
+    result.report = std::move(u.report);
+    const Structure& s = *u.structure;
     result.report.charts = static_cast<int>(s.map.charts.size());
     result.report.blocks = static_cast<int>(s.blocks.blocks.size());
-    const Quantization& q = quantization;
+    const Quantization& q = u.quantization;
     result.report.quantization = {q.objective, q.bound, q.gap(), q.optimal, q.nodes, q.cuts, q.c2_rounds};
     if (!q.optimal) result.report.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
     result.report.tets = static_cast<int>(s.tets.tets.size());
-    if (c.refine != 1) result.report.warnings.push_back(c.refine > 1 ? "the cells are finer than asked for" : "the cells are coarser than asked for");
-    std::vector<int> blocks = complex.hex_block;
+    if (u.candidate.refine != 1) result.report.warnings.push_back("the cells are finer than asked for");
+    std::vector<int> blocks = u.complex.hex_block;
     if (options_.coarsest) std::iota(blocks.begin(), blocks.end(), 0);
-    result.hex_block = carry_blocks(padded.mesh, std::move(blocks));
-    finish(result, std::move(padded));
+    result.hex_block = carry_blocks(u.padded.mesh, std::move(blocks));
+    finish(result, std::move(u.padded));
     return result;
   }
 
-  // Association, padding and fit. Where cells stay inverted the CAD edges of the faces there are given up, smooth ones first: a mesh that misses an
-  // edge is worth more than none.
-  PaddedMesh capture_and_fit(const Structure& s, const HexComplex& complex, AssociateOptions options, int rounds, MeshReport& report) {
-    for (int round = 0;; ++round) {
-      const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-      const Association association = stage("pad", [&] { return associate(model_, s.tets, s.map.charts, boundary, options, monitor_); });
-      monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
-                   std::to_string(association.lost_vertices.size()) + " vertices without mesh");
-      FitReport fitted;
-      PaddedMesh padded = pad_and_fit(complex.mesh, association, round == 0, fitted, report);
-      for (const WorstCell& cell : worst_cells(padded.mesh, padded.association, 3)) {
-        std::string line = "fit: cell at";
-        for (double x : pose_.back(cell.centre)) line += " " + std::to_string(x);
-        line += " has SJ " + std::to_string(cell.scaled_jacobian);
-        for (int f : cell.faces) line += " " + name({2, f});
-        monitor_.log(line);
-      }
-      if (fitted.inverted == 0) {
-        gate(padded);
-        return padded;
-      }
-      const bool fewer = round < rounds && (give_up(padded, kSmoothBend, options) || give_up(padded, std::numbers::pi, options));
-      if (fewer) continue;
-      std::vector<CadRef> faces;
-      for (int f : fitted.bad_faces) faces.push_back({2, f});
-      throw StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
+  // Association, padding and fit.
+  void capture_and_fit(Unfinished& u, bool all_choices) {
+    const HexComplex& complex = u.complex;
+    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+    const Association association =
+        stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_); });
+    monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
+                 std::to_string(association.lost_vertices.size()) + " vertices without mesh");
+    u.padded = pad_and_fit(complex.mesh, association, all_choices, u.fitted, u.report);
+    for (const WorstCell& cell : worst_cells(u.padded.mesh, u.padded.association, 3)) {
+      std::string line = "fit: cell at";
+      for (double x : pose_.back(cell.centre)) line += " " + std::to_string(x);
+      line += " has SJ " + std::to_string(cell.scaled_jacobian);
+      for (int f : cell.faces) line += " " + name({2, f});
+      monitor_.log(line);
     }
   }
 
@@ -360,7 +404,7 @@ class Run {
         fitted = next;
         chosen = i;
       }
-      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= fit_options.target_scaled_jacobian) break;
+      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= kGoodScaledJacobian) break;
     }
     report.padded_hexes = pad_reports[chosen].added_hexes;
     monitor_.log("pad: " + std::to_string(pad_reports[chosen].added_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) +
@@ -428,6 +472,7 @@ class Run {
   double size_;
   std::map<double, TetMesh> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
+  std::vector<Unfinished> unfinished_;
   std::map<std::tuple<double, double, bool, double, double>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;

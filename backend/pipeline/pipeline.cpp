@@ -111,6 +111,7 @@ struct Unfinished {
   Quantization quantization;
   AssociateOptions options;
   PaddedMesh padded;
+  int choice = -1;  // of the padding plans
   FitReport fitted;
   MeshReport report;
 };
@@ -156,6 +157,7 @@ class Run {
     };
     for (const Candidate& c : candidates(options_)) {
       if (fits_left_ <= kReservedFits) break;
+      if (c.strictness > LabelOptions{}.strictness && flawless_.count(c.widest_bend) > 0) continue;
       const auto work = [&] {
         MeshResult result = attempt(c, !best && !failure, options_.divisions);
         retry_padded(c, result);
@@ -304,7 +306,7 @@ class Run {
       if (bend(e.edge) < c.min_bend) u.options.edge_chains[e.edge].clear();
       if (bend(e.edge) >= c.min_bend && first) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
     }
-    capture_and_fit(u, true);
+    capture_and_fit(u);
     if (u.fitted.inverted > 0) {
       unfinished_.push_back(std::move(u));
       throw inverted(unfinished_.back());
@@ -316,7 +318,7 @@ class Run {
   MeshResult relax(Unfinished& u) {
     for (int round = 0; round < kRelaxRounds; ++round) {
       if (!give_up(u.padded, kSmoothBend, u.options) && !give_up(u.padded, std::numbers::pi, u.options)) break;
-      capture_and_fit(u, false);
+      capture_and_fit(u);
       if (u.fitted.inverted == 0) return finished(std::move(u));
     }
     throw inverted(u);
@@ -348,14 +350,14 @@ class Run {
   }
 
   // Association, padding and fit.
-  void capture_and_fit(Unfinished& u, bool all_choices) {
+  void capture_and_fit(Unfinished& u) {
     const HexComplex& complex = u.complex;
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
     const Association association =
         stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_); });
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                  std::to_string(association.lost_vertices.size()) + " vertices without mesh");
-    u.padded = pad_and_fit(complex.mesh, association, all_choices, u.fitted, u.report);
+    u.padded = pad_and_fit(complex.mesh, association, u.choice, u.fitted, u.report);
     for (const WorstCell& cell : worst_cells(u.padded.mesh, u.padded.association, 3)) {
       std::string line = "fit: cell at";
       for (double x : pose_.back(cell.centre)) line += " " + std::to_string(x);
@@ -365,30 +367,37 @@ class Run {
     }
   }
 
-  // Drops the CAD edges that inverted cells stand on and that bend less than `limit`. False if there are none.
+  // Drops the CAD edge that most nodes of inverted cells stand on, of those that bend less than `limit`. False if there is none.
   bool give_up(const PaddedMesh& padded, double limit, AssociateOptions& options) const {
     std::vector<std::set<int>> edges_at(padded.mesh.points.size());
     for (std::size_t i = 0; i < padded.association.segments.size(); ++i) {
       for (int n : padded.association.segments[i]) edges_at[n].insert(padded.association.segment_edge[i]);
     }
-    bool changed = false;
+    std::map<int, int> blame;
     for (const Hex& h : padded.mesh.hexes) {
       if (scaled_jacobian(padded.mesh.points, h) > 0) continue;
       for (int n : h) {
         for (int e : edges_at[n]) {
-          if (options.edge_chains[e].empty() || bend(e) >= limit) continue;
-          options.edge_chains[e].clear();
-          changed = true;
+          if (!options.edge_chains[e].empty() && bend(e) < limit) ++blame[e];
         }
       }
     }
-    return changed;
+    if (blame.empty()) return false;
+    const auto worst = std::max_element(blame.begin(), blame.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
+    options.edge_chains[worst->first].clear();
+    monitor_.log("pad: " + name({1, worst->first}) + " is given up");
+    return true;
   }
 
-  PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, bool all_choices, FitReport& fitted, MeshReport& report) {
+  // `choice`: the padding plan to fit, -1 for the best of all; on return the one chosen.
+  PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, int& choice, FitReport& fitted, MeshReport& report) {
     std::vector<PadReport> pad_reports;
     std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, mesh, association, monitor_, &pad_reports); });
-    if (!all_choices) choices.resize(1);
+    if (choice >= 0 && choices.size() > 1) {
+      const auto index = std::min(static_cast<std::size_t>(choice), choices.size() - 1);
+      choices = {std::move(choices[index])};
+      pad_reports = {pad_reports[index]};
+    }
     FitOptions fit_options;
     if (options_.threads > 0) fit_options.threads = options_.threads;
     // The first choice usually is the best; the others are fitted only where it falls short.
@@ -411,6 +420,7 @@ class Run {
                  " rings, choice " + std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
     monitor_.log("fit: min SJ " + std::to_string(fitted.min_scaled_jacobian) + ", mean " + std::to_string(fitted.mean_scaled_jacobian) + ", " +
                  std::to_string(fitted.inverted) + " inverted");
+    if (choice < 0) choice = static_cast<int>(chosen);
     return std::move(choices[chosen]);
   }
 
@@ -473,6 +483,7 @@ class Run {
   std::map<double, TetMesh> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
   std::vector<Unfinished> unfinished_;
+  std::set<double> flawless_;  // widest bends with whose labels nothing is wrong: stricter ones would be the same
   std::map<std::tuple<double, double, bool, double, double>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;

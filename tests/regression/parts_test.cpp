@@ -2,12 +2,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "cad/cad.h"
 #include "core/error.h"
+#include "label/label.h"
 #include "pipeline/inspect.h"
 #include "pipeline/pipeline.h"
 #include "support/shapes.h"
+#include "tet/tet.h"
 
 namespace polycube {
 namespace {
@@ -25,6 +29,7 @@ std::vector<Part> parts() {
           {"L bracket", shapes::l_bracket(20, 5, 15), 0.9},
           {"notched box", shapes::notched_box(10), 0.4},
           {"chamfered box", shapes::chamfered_box(10, 2), 0.3},
+          {"filleted box", shapes::filleted_box(10, 2), 0.5},
           {"half cylinder", shapes::half_cylinder(6, 10), 0.3},
           {"turned L bracket", shapes::moved(shapes::l_bracket(20, 5, 15), 33, 100, -50, 7), 0.9}};
 }
@@ -84,6 +89,29 @@ TEST(Pipeline, CancelAndBadOptionsEndIt) {
   MeshOptions options;
   options.size = 50;
   EXPECT_THROW(mesh(model, options, Monitor()), InvalidInput);
+}
+
+// Divided along their middle, or given to one side whole: the plane of symmetry between two fillets' rims is a chart boundary only if divided.
+TEST(Labels, FilletsAreDividedUnlessToldOtherwise) {
+  const CadModel model = CadModel::from_brep(shapes::filleted_box(10, 2));
+  TetOptions size;
+  size.size = 0.6;
+  const TetMesh tets = tetrahedralise(model, size, Monitor());
+  const auto labels_on_fillets = [&](double widest_bend) {
+    TetMesh mesh = tets;
+    LabelOptions options;
+    options.widest_bend = widest_bend;
+    const Labelling labelling = label(model, mesh, options, Monitor());
+    std::map<int, std::set<int>> on;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) on[mesh.triangle_face[t]].insert(labelling.label[t]);
+    std::multiset<std::size_t> counts;
+    for (const auto& [face, labels] : on) {
+      if (model.face(face).kind == SurfaceKind::kCylinder) counts.insert(labels.size());
+    }
+    return counts;
+  };
+  EXPECT_EQ(labels_on_fillets(LabelOptions{}.widest_bend).count(2), 12u);
+  EXPECT_EQ(labels_on_fillets(0.96).count(1), 12u);
 }
 
 TEST(Labels, OfMadePartsAreValidAndMonotone) {

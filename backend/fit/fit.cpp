@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "core/quality.h"
 #include "fit/energy.h"
 #include "fit/parallel.h"
@@ -54,6 +55,13 @@ class Fitting {
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
       untangle(around(0, layers), 50);
+    }
+    // Cells that resist get another start: their surroundings smoothed flat.
+    for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
+      restore();
+      const Region region = around(0, layers);
+      smooth(region);
+      untangle(region, 50);
     }
     monitor_.progress("fit", 0.5);
     if (score_.inverted == 0) {
@@ -126,6 +134,32 @@ class Fitting {
                          [&](int corner) { return !in[corner / 8]; });
     });
     return region;
+  }
+
+  // Takes the nodes of patches and the inside to the mean of their neighbours, those of patches to the mean of their neighbours on the boundary.
+  void smooth(const Region& region) {
+    constexpr int kRounds = 10;
+    std::vector<int> nodes = region.nodes;
+    std::erase_if(nodes, [&](int v) { return entities_.dimension(v) < 2; });
+    for (int round = 0; round < kRounds; ++round) {
+      monitor_.check();
+      std::vector<Vec3> means;
+      for (int v : nodes) {
+        Vec3 sum = Vec3::Zero();
+        int count = 0;
+        for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
+          const Hex& hex = mesh_.hexes[graph_.corners[k] / 8];
+          for (int c : kCornerNeighbours[graph_.corners[k] % 8]) {
+            if (entities_.dimension(v) == 2 && entities_.dimension(hex[c]) > 2) continue;
+            sum += mesh_.points[hex[c]];
+            ++count;
+          }
+        }
+        means.push_back(count > 0 ? Vec3(sum / count) : mesh_.points[v]);
+      }
+      for (std::size_t i = 0; i < nodes.size(); ++i) mesh_.points[nodes[i]] = means[i];
+      entities_.project(mesh_.points, &nodes);
+    }
   }
 
   // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).

@@ -249,11 +249,13 @@ class Run {
     label_options.face_labels = options_.labels;
     label_options.frame_given = true;
     label_options.frame = pose_.frame;
+    LabelReport labels;
     const Labelling labelling = stage("label", [&] {
-      Labelling found = label(model_, s.tets, label_options, monitor_);
+      Labelling found = label(model_, s.tets, label_options, monitor_, &labels);
       absorb_strays(s.tets, found, monitor_);
       return found;
     });
+    if (labels.valid() && labels.turning_points + labels.bad_turns == 0) flawless_.insert(c.widest_bend);
     s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, c.min_bend, monitor_); });
     if (!c.features) s.features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};

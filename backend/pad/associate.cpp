@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -21,6 +22,8 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // Paths further from their CAD edge than this many cell sizes are no capture of it.
 constexpr double kReach = 3;
+// Cell sizes that a quad too many or too few between two CAD edges at a vertex costs.
+constexpr double kSpokePrice = 0.5;
 // Rounds of routing, and those without success after which it ends.
 constexpr int kRounds = 24;
 constexpr int kPatience = 8;
@@ -49,6 +52,12 @@ struct Surface {
 
   std::unordered_map<std::uint64_t, int> left;  // directed edge -> quad on its left
   std::vector<std::vector<int>> out;            // per node: neighbours, ascending
+};
+
+// A CAD edge at one of its vertices.
+struct Spoke {
+  int edge = 0, end = 0;   // end 0: where the edge's chain begins
+  int quads_to_next = 1;   // that belong between it and the next spoke, counter-clockwise seen from outside
 };
 
 struct Path {
@@ -88,6 +97,7 @@ class Associator {
       if (!edge.seam && !edge.degenerate) real_.push_back(e);
     }
     failures_.assign(model_.edge_count() + 1, 0);
+    find_spokes();
     std::optional<Association> best;
     double least = kNever;
     for (int round = 0, idle = 0; round < kRounds && idle < kPatience; ++round, ++idle) {
@@ -129,6 +139,86 @@ class Associator {
       lost_[culprit] = 1;
       path_[culprit] = {};
     }
+  }
+
+  // The CAD edges round every vertex in order, with the angles of the tet mesh's triangles between them.
+  void find_spokes() {
+    std::map<std::pair<int, int>, std::pair<int, int>> ends;  // (vertex's point, next point) -> (edge, end)
+    for (int e : real_) {
+      const auto& chain = options_.edge_chains[e];
+      if (chain.size() < 2) continue;
+      ends[{chain[0], chain[1]}] = {e, 0};
+      ends[{chain.back(), chain[chain.size() - 2]}] = {e, 1};
+    }
+    spokes_.resize(model_.vertex_count() + 1);
+    for (auto it = ends.begin(); it != ends.end(); ++it) {
+      const int at = it->first.first;
+      if (tets_.point_cad[at].dim != 0) continue;
+      std::vector<Spoke>& spokes = spokes_[tets_.point_cad[at].id];
+      if (!spokes.empty()) continue;
+      int next = it->first.second;
+      double angle = 0;
+      do {
+        if (const auto found = ends.find({at, next}); found != ends.end()) {
+          if (!spokes.empty()) spokes.back().quads_to_next = quads_in(angle);
+          spokes.push_back({found->second.first, found->second.second, 1});
+          angle = 0;
+        }
+        const Triangle& t = tets_.triangles[triangle_left_.at(key(at, next))];
+        const int beyond = t[0] == at ? t[2] : t[1] == at ? t[0] : t[1];
+        const Vec3 a = tets_.points[next] - tets_.points[at], b = tets_.points[beyond] - tets_.points[at];
+        angle += std::acos(std::clamp(a.dot(b) / (a.norm() * b.norm()), -1.0, 1.0));
+        next = beyond;
+      } while (next != it->first.second);
+      spokes.back().quads_to_next = quads_in(angle);
+    }
+  }
+  static int quads_in(double angle) { return std::max(1, static_cast<int>(std::lround(angle / (std::numbers::pi / 2)))); }
+
+  // Quads from neighbour `from` of a mesh node counter-clockwise to its neighbour `to`.
+  int quads_between(int node, int from, int to) const {
+    int count = 0;
+    const auto around = static_cast<int>(surface_.out[node].size());
+    for (int n = from; n != to && count < around; ++count) {
+      const Quad& q = b_.quads[surface_.left_of(node, n)];
+      const auto k = std::find(q.begin(), q.end(), node) - q.begin();
+      n = q[(k + 3) % 4];
+    }
+    return count;
+  }
+
+  // Price of edge `e` leaving its vertex towards `neighbour`, by the quads that come to lie between it and the edges there already: a narrow
+  // angle of the CAD must not be shared by several.
+  double spoke_price(int vertex, int e, int end, int node, int neighbour) const {
+    const std::vector<Spoke>& spokes = spokes_[vertex];
+    const int count = static_cast<int>(spokes.size());
+    int self = -1;
+    for (int i = 0; i < count; ++i) {
+      if (spokes[i].edge == e && spokes[i].end == end) self = i;
+    }
+    if (self < 0) return 0;
+    const auto step_of = [&](const Spoke& s) {
+      const auto& nodes = path_[s.edge].nodes;
+      return nodes.size() < 2 ? -1 : s.end == 0 ? nodes[1] : nodes[nodes.size() - 2];
+    };
+    int wrong = 0, expected = 0;
+    for (int i = 0; i + 1 < count; ++i) {
+      expected += spokes[(self + i) % count].quads_to_next;
+      const int step = step_of(spokes[(self + i + 1) % count]);
+      if (step < 0) continue;
+      wrong += std::abs(quads_between(node, neighbour, step) - expected);
+      break;
+    }
+    expected = 0;
+    for (int i = 0; i + 1 < count; ++i) {
+      const Spoke& s = spokes[(self + count - 1 - i) % count];
+      expected += s.quads_to_next;
+      const int step = step_of(s);
+      if (step < 0) continue;
+      wrong += std::abs(quads_between(node, step, neighbour) - expected);
+      break;
+    }
+    return kSpokePrice * options_.size * std::min(wrong, 6);
   }
 
   void place_vertices() {
@@ -227,7 +317,7 @@ class Associator {
     bool ok = true;
     for (std::size_t i = 0; i + 1 < stops.size() && ok; ++i) {
       std::vector<int> piece(chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].first), chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].second) + 1);
-      const std::vector<int> nodes = shortest(piece, stops[i], stops[i + 1], sum);
+      const std::vector<int> nodes = shortest(piece, stops[i], stops[i + 1], e, i == 0, i + 2 == stops.size(), sum);
       ok = nodes.size() > 1;
       if (!ok) break;
       path.nodes.insert(path.nodes.end(), nodes.begin() + 1, nodes.end());
@@ -274,8 +364,8 @@ class Associator {
     return has(q1) || has(q2) ? 0.5 * options_.size : 0;
   }
 
-  // Dijkstra over directed boundary edges, cheap near the chain.
-  std::vector<int> shortest(const std::vector<int>& chain, int from, int to, double& deviation) {
+  // Dijkstra over directed boundary edges, cheap near the chain. `first`, `last`: `from`, `to` is the vertex where edge `e` begins, ends.
+  std::vector<int> shortest(const std::vector<int>& chain, int from, int to, int e, bool first, bool last, double& deviation) {
     const auto pairs = chart_pairs(chain);
     std::unordered_map<int, double> off;
     const auto away = [&](int n) {
@@ -303,6 +393,8 @@ class Associator {
       cost *= 1 + 8 * mean + 16 * mean * mean;
       if (pairs.count(std::minmax(p, q)) == 0) cost = 6 * cost + size;
       if (previous >= 0) cost += turn_price(previous, a, b);
+      if (previous < 0 && first) cost += spoke_price(model_.edge(e).vertices[0], e, 0, from, b);
+      if (b == to && last) cost += spoke_price(model_.edge(e).vertices[1], e, 1, to, a);
       const std::uint64_t k = key(a, b);
       if (auto it = best.find(k); it != best.end() && it->second <= base + cost) return;
       best[k] = base + cost;
@@ -512,6 +604,7 @@ class Associator {
   std::vector<int> vertex_node_;
   std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge
   std::vector<Path> path_;
+  std::vector<std::vector<Spoke>> spokes_;       // per CAD vertex, counter-clockwise
   std::vector<int> failures_;                    // per CAD edge: rounds without a path
 };
 

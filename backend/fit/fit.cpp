@@ -16,6 +16,7 @@ namespace polycube {
 
 namespace {
 
+constexpr int kFew = 4;            // inverted cells worth another start: more of them have a cause that none mends
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
 // How good a mesh is: first no inverted cells, then the worst cell up to a goal, then the mean.
@@ -56,8 +57,8 @@ class Fitting {
       restore();
       untangle(around(0, layers), 50);
     }
-    // Cells that resist get another start: their surroundings smoothed flat.
-    for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
+    // A few cells that resist get another start: their surroundings smoothed flat.
+    for (int layers = 2; score_.inverted > 0 && score_.inverted <= kFew && layers <= 6; layers += 2) {
       restore();
       const Region region = around(0, layers);
       smooth(region);

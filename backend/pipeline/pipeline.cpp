@@ -40,11 +40,11 @@ constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
 constexpr int kRelaxRounds = 5;
 // Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
-constexpr int kMaxFits = 16;
+constexpr int kMaxFits = 14;
 // Fits after which a complete mesh with poor cells is good enough.
 constexpr int kPatience = 6;
 // Those kept back for giving up edges, while there is no mesh at all.
-constexpr int kReservedFits = 8;
+constexpr int kReservedFits = 7;
 // A bend that no CAD edge reaches, radians.
 constexpr double kNoEdge = 4;
 // The last candidates may always try this often.

@@ -156,7 +156,7 @@ class Run {
       return best && good_enough(*best);
     };
     for (const Candidate& c : candidates(options_)) {
-      if (fits_left_ <= (best ? 0 : kReservedFits)) break;
+      if (fits_left_ <= (best ? kReservedFits / 2 : kReservedFits)) break;
       if (c.strictness > LabelOptions{}.strictness && flawless_.count(c.widest_bend) > 0) continue;
       const auto work = [&] {
         MeshResult result = attempt(c, !best && !failure, options_.divisions);

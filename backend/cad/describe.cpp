@@ -24,6 +24,7 @@
 
 #include "cad/shape.h"
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -309,6 +310,20 @@ void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id,
   }
 }
 
+// Edges far below any cell's size, which files of other systems leave between faces that just fail to meet, cannot have mesh edges of their own.
+void join_tiny_edges(std::vector<CadEdge>& edges, int vertices, double diagonal) {
+  constexpr double kTiny = 1e-5;
+  UnionFind same(static_cast<std::size_t>(vertices) + 1);
+  for (CadEdge& e : edges) {
+    if (e.degenerate || e.vertices[0] == e.vertices[1] || e.length > kTiny * diagonal) continue;
+    e.tiny = true;
+    same.unite(std::min(e.vertices[0], e.vertices[1]), std::max(e.vertices[0], e.vertices[1]));
+  }
+  for (CadEdge& e : edges) {
+    for (int& v : e.vertices) v = same.find(v);
+  }
+}
+
 }  // namespace
 
 std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape) {
@@ -336,6 +351,7 @@ std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape) {
   Bnd_Box box;
   BRepBndLib::AddOptimal(shape, box, false, false);
   result->box = to_box(box);
+  join_tiny_edges(result->edges, static_cast<int>(result->vertices.size()), result->box.diagonal().norm());
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
   result->volume = properties.Mass();

@@ -187,6 +187,12 @@ class Finder {
   std::map<int, std::vector<int>> at_;
 };
 
+// Does the edge begin at the vertex, or at one that a tiny edge joins to it?
+bool is_end(const CadModel& model, int edge, int vertex) {
+  return vertex == model.edge(edge).vertices[0] ||
+         (model.vertex(vertex) - model.edge_point(edge, model.edge_range(edge)[0])).norm() <= 1e-5 * model.diagonal();
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& mesh) {
@@ -201,7 +207,7 @@ std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& 
     if (next[e].empty()) continue;
     int start = next[e].begin()->first;
     for (const auto& [node, beside] : next[e]) {
-      const bool end = mesh.point_cad[node] == CadRef{0, model.edge(e).vertices[0]};
+      const bool end = mesh.point_cad[node].dim == 0 && is_end(model, e, mesh.point_cad[node].id);
       if (end) start = node;
     }
     std::vector<int>& chain = chains[e];
@@ -223,7 +229,7 @@ Features find_features(const CadModel& model, const TetMesh& mesh, const Labelli
   const auto chains = edge_chains(model, mesh);
   std::vector<int> order;
   for (int e = 1; e <= model.edge_count(); ++e) {
-    if (!model.edge(e).seam && !model.edge(e).degenerate) order.push_back(e);
+    if (!model.edge(e).seam && !model.edge(e).degenerate && !model.edge(e).tiny) order.push_back(e);
   }
   // Sharp edges first, then long ones: where two exclude each other the one that matters more stays.
   const auto bend = [&](int e) { return std::max(std::abs(model.edge(e).min_angle - std::numbers::pi), std::abs(model.edge(e).max_angle - std::numbers::pi)); };

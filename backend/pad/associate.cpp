@@ -94,7 +94,7 @@ class Associator {
   Association run() {
     for (int e = 1; e <= model_.edge_count(); ++e) {
       const CadEdge& edge = model_.edge(e);
-      if (!edge.seam && !edge.degenerate) real_.push_back(e);
+      if (!edge.seam && !edge.degenerate && !edge.tiny) real_.push_back(e);
     }
     failures_.assign(model_.edge_count() + 1, 0);
     find_spokes();

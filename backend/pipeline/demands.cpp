@@ -230,7 +230,7 @@ void check_divisions(const CadModel& model, const Divisions& divisions) {
   for (const Division& d : divisions) {
     const std::string start = "--divisions: " + text_of(d) + ": ";
     if (d.edge > 0 && model.edge(d.edge).seam) throw InvalidInput(start + "the edge is a seam, which meshes do not follow");
-    if (d.edge > 0 && model.edge(d.edge).degenerate) throw InvalidInput(start + "the edge is a point");
+    if (d.edge > 0 && (model.edge(d.edge).degenerate || model.edge(d.edge).tiny)) throw InvalidInput(start + "the edge is a point");
     if (d.edge == 0 && d.faces[0] == d.faces[1]) throw InvalidInput(start + "both faces are the same");
   }
 }

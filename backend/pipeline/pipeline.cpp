@@ -13,6 +13,7 @@
 
 #include "blocks/blocks.h"
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "fem/fem.h"
 #include "fit/fit.h"
 #include "hex/hex.h"
@@ -45,6 +46,8 @@ constexpr int kMaxFits = 14;
 constexpr int kPatience = 6;
 // Those kept back for giving up edges, while there is no mesh at all.
 constexpr int kReservedFits = 7;
+// Of the diagonal: below this a mesh edge is none.
+constexpr double kShortestEdge = 1e-8;
 // A bend that no CAD edge reaches, radians.
 constexpr double kNoEdge = 4;
 // The last candidates may always try this often.
@@ -443,6 +446,14 @@ class Run {
   void gate(const PaddedMesh& padded) const {
     const QualitySummary q = summarise(padded.mesh);
     if (padded.mesh.hexes.empty() || q.inverted > 0 || !(q.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells without positive Jacobian");
+    // CAD vertices that all but coincide cannot each have a node of its own.
+    for (const Hex& h : padded.mesh.hexes) {
+      for (const auto& [c, d] : kHexEdges) {
+        if ((padded.mesh.points[h[c]] - padded.mesh.points[h[d]]).norm() > kShortestEdge * model_.diagonal()) continue;
+        const CadRef at = padded.association.point_cad[h[c]];
+        throw StageFailed("fit", "a cell without size", at.dim < 2 ? std::vector{at} : std::vector<CadRef>{});
+      }
+    }
     const std::vector<std::string> faults = check(padded.mesh, padded.association);
     if (!faults.empty()) throw StageFailed("pad", "the mesh does not conform: " + faults.front());
     std::set<int> nodes;
@@ -470,7 +481,7 @@ class Run {
     r.worst = worst_cells(result.mesh, result.association);
     std::vector<int> real;
     for (int e = 1; e <= model_.edge_count(); ++e) {
-      if (!model_.edge(e).seam && !model_.edge(e).degenerate) real.push_back(e);
+      if (!model_.edge(e).seam && !model_.edge(e).degenerate && !model_.edge(e).tiny) real.push_back(e);
     }
     r.capture = capture(result.association, model_.vertex_count(), real, model_.face_count());
     for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));

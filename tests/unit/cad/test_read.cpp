@@ -155,6 +155,22 @@ TEST(Read, SeamsAndPoles) {
   EXPECT_EQ(degenerate, 1);
 }
 
+TEST(Read, TinyEdgesArePoints) {
+  const CadModel model = CadModel::from_brep(shapes::chamfered_box(10, 5e-5));
+  ASSERT_EQ(model.vertex_count(), 10);
+  int tiny = 0;
+  std::map<int, int> ends;
+  for (int e = 1; e <= model.edge_count(); ++e) {
+    tiny += model.edge(e).tiny;
+    EXPECT_EQ(model.edge(e).tiny, model.edge(e).length < 1e-4);
+    EXPECT_EQ(model.edge(e).tiny, model.edge(e).vertices[0] == model.edge(e).vertices[1]);
+    for (int v : model.edge(e).vertices) ++ends[v];
+  }
+  EXPECT_EQ(tiny, 2);
+  EXPECT_EQ(ends.size(), 8u);
+  EXPECT_EQ(model.euler_characteristic(), 2);
+}
+
 TEST(Read, BrepKeepsTheNumbering) {
   for (const std::string& brep : {shapes::plate_with_hole(10, 8, 2, 1.5), shapes::filleted_box(10, 2), shapes::hollow_box(10), shapes::loft(4, 5)}) {
     const CadModel first = model(brep), second = model(first.to_brep());

@@ -41,11 +41,11 @@ constexpr double kSmoothBend = std::numbers::pi / 6;
 // Times that edges are given up for one candidate.
 constexpr int kRelaxRounds = 5;
 // Fits in one run, over all candidates: what has not come out by then will not, and the user waits.
-constexpr int kMaxFits = 14;
+constexpr int kMaxFits = 10;
 // Fits after which a complete mesh with poor cells is good enough.
 constexpr int kPatience = 6;
 // Those kept back for giving up edges, while there is no mesh at all.
-constexpr int kReservedFits = 7;
+constexpr int kReservedFits = 5;
 // Of the diagonal: below this a mesh edge is none.
 constexpr double kShortestEdge = 1e-8;
 // A bend that no CAD edge reaches, radians.

@@ -322,7 +322,8 @@ class Run {
   // A mesh that misses an edge is worth more than none: those that inverted cells stand on are given up, smooth ones first.
   MeshResult relax(Unfinished& u) {
     for (int round = 0; round < kRelaxRounds; ++round) {
-      if (!give_up(u.padded, kSmoothBend, u.options) && !give_up(u.padded, std::numbers::pi, u.options)) break;
+      const int count = 1 << round;  // more and more of them, to come to an end
+      if (!give_up(u.padded, kSmoothBend, count, u.options) && !give_up(u.padded, std::numbers::pi, count, u.options)) break;
       capture_and_fit(u);
       if (u.fitted.inverted == 0) return finished(std::move(u));
     }
@@ -372,8 +373,8 @@ class Run {
     }
   }
 
-  // Drops the CAD edge that most nodes of inverted cells stand on, of those that bend less than `limit`. False if there is none.
-  bool give_up(const PaddedMesh& padded, double limit, AssociateOptions& options) const {
+  // Drops the `count` CAD edges that most nodes of inverted cells stand on, of those that bend less than `limit`. False if there is none.
+  bool give_up(const PaddedMesh& padded, double limit, int count, AssociateOptions& options) const {
     std::vector<std::set<int>> edges_at(padded.mesh.points.size());
     for (std::size_t i = 0; i < padded.association.segments.size(); ++i) {
       for (int n : padded.association.segments[i]) edges_at[n].insert(padded.association.segment_edge[i]);
@@ -388,9 +389,13 @@ class Run {
       }
     }
     if (blame.empty()) return false;
-    const auto worst = std::max_element(blame.begin(), blame.end(), [](const auto& x, const auto& y) { return x.second < y.second; });
-    options.edge_chains[worst->first].clear();
-    monitor_.log("pad: " + name({1, worst->first}) + " is given up");
+    std::vector<std::pair<int, int>> worst;  // (minus blame, edge)
+    for (const auto& [edge, nodes] : blame) worst.emplace_back(-nodes, edge);
+    std::sort(worst.begin(), worst.end());
+    for (int i = 0; i < std::min(count, static_cast<int>(worst.size())); ++i) {
+      options.edge_chains[worst[i].second].clear();
+      monitor_.log("pad: " + name({1, worst[i].second}) + " is given up");
+    }
     return true;
   }
 

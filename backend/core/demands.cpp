@@ -109,6 +109,21 @@ LocalSizes parse_local_sizes(const std::string& flag, const std::string& text) {
   return result;
 }
 
+FaceList parse_faces(const std::string& flag, const std::string& text) {
+  FaceList faces;
+  std::string dense = text;
+  std::erase(dense, ' ');
+  std::istringstream items(dense);
+  for (std::string item; std::getline(items, item, ',');) {
+    const auto face = entity(item, "Face");
+    if (!face) throw InvalidInput(flag + ": '" + item + "' is not of the form Face3");
+    faces.push_back(*face);
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 std::string text_of(const Division& d) {
   const std::string what = d.edge > 0 ? "Edge" + std::to_string(d.edge) : face_name(d.faces[0]) + "-" + face_name(d.faces[1]);
   if (d.at_least == d.at_most) return what + "=" + std::to_string(d.at_least);

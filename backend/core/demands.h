@@ -25,6 +25,8 @@ struct LocalSize {
   friend bool operator==(const LocalSize&, const LocalSize&) = default;
 };
 
+/// CAD faces, ascending, each once.
+using FaceList = std::vector<int>;
 using Divisions = std::vector<Division>;
 using LocalSizes = std::vector<LocalSize>;
 
@@ -33,6 +35,9 @@ using LocalSizes = std::vector<LocalSize>;
 Divisions parse_divisions(const std::string& flag, const std::string& text);
 /// From text such as "Face3=0.5,X=2".
 LocalSizes parse_local_sizes(const std::string& flag, const std::string& text);
+
+/// From text such as "Face3,Face7".
+FaceList parse_faces(const std::string& flag, const std::string& text);
 
 /// Text that is read back as the same.
 std::string text_of(const Division& division);

@@ -57,8 +57,11 @@ struct Association {
   std::vector<Segment> segments;          ///< mesh edges that stand for a piece of a CAD edge
   std::vector<int> segment_edge;          ///< per segment: CAD edge
   std::vector<CadRef> point_cad;          ///< per mesh point: {0, vertex}, {1, edge}, {2, index into patches}, or {3, 1} inside
-  std::vector<int> lost_edges;            ///< CAD edges without a chain of mesh edges (seams and degenerate edges not counted)
-  std::vector<int> lost_vertices;         ///< CAD vertices without a node
+  std::vector<int> lost_edges;            ///< CAD edges without a chain of mesh edges (seams, degenerate and ignored edges not counted)
+  std::vector<int> lost_vertices;         ///< CAD vertices without a node, ignored ones not counted
+  std::vector<int> ignored_edges;         ///< CAD edges that were to be left out
+  std::vector<int> ignored_vertices;      ///< CAD vertices on ignored edges only
+  std::vector<int> ignored_faces;         ///< CAD faces in patches of several that ignored edges alone join
 };
 
 }  // namespace polycube

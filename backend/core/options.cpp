@@ -128,6 +128,7 @@ void set(MeshOptions& options, const OptionSpec& option, const std::string& text
                  [&](FrameAxes MeshOptions::*m) { options.*m = parse_frame(option, text); },
                  [&](Divisions MeshOptions::*m) { options.*m = parse_divisions(flag(option.name), text); },
                  [&](LocalSizes MeshOptions::*m) { options.*m = parse_local_sizes(flag(option.name), text); },
+                 [&](FaceList MeshOptions::*m) { options.*m = parse_faces(flag(option.name), text); },
              },
              option.member);
 }
@@ -206,9 +207,14 @@ const std::vector<OptionSpec>& option_table() {
        .member = &MeshOptions::sizes},
       {.name = "feature_angle",
        .unit = "degrees",
-       .meaning = "CAD edges that bend less than this need not be followed by mesh edges. 0: follow all.",
+       .meaning = "CAD edges that bend less than this are ignored: the faces on both sides share their mesh faces. 0: none.",
        .member = &MeshOptions::feature_angle,
        .max = 180,
+       .advanced = true},
+      {.name = "keep_faces",
+       .unit = "",
+       .meaning = "CAD faces none of whose edges is ignored, such as Face3,Face7. FreeCAD adds those that carry constraints.",
+       .member = &MeshOptions::keep_faces,
        .advanced = true},
       {.name = "threads",
        .unit = "",
@@ -233,7 +239,7 @@ const std::vector<OptionSpec>& option_table() {
 }
 
 std::string option_type(const OptionSpec& option) {
-  static constexpr std::array<const char*, 8> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes"};
+  static constexpr std::array<const char*, 9> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "faces"};
   return kTypes[option.member.index()];
 }
 
@@ -280,6 +286,11 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option) {
                         },
                         [&](Divisions MeshOptions::*m) { return joined(options.*m); },
                         [&](LocalSizes MeshOptions::*m) { return joined(options.*m); },
+                        [&](FaceList MeshOptions::*m) {
+                          std::string text;
+                          for (int face : options.*m) text += (text.empty() ? "Face" : ",Face") + std::to_string(face);
+                          return text;
+                        },
                     },
                     option.member);
 }
@@ -326,6 +337,7 @@ void check(const MeshOptions& options, double diagonal, int face_count, int edge
     for (int face : d.faces) check_entity("--divisions", "Face", face, face_count);
   }
   for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, face_count);
+  for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, face_count);
 }
 
 const char* label_name(int label) { return kLabelNames.at(label); }

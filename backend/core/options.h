@@ -26,6 +26,7 @@ struct MeshOptions {
   std::string element_type;
   double time_limit = 0;
   double feature_angle = 0;
+  FaceList keep_faces;
   int threads = 0;
   FaceLabels labels;
   FrameAxes frame;
@@ -39,7 +40,7 @@ struct MeshOptions {
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
   using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
-                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*>;
+                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, FaceList MeshOptions::*>;
   std::string name;
   std::string unit;                  ///< "mm", "s", "degrees" or empty
   std::string meaning;               ///< one sentence
@@ -52,7 +53,7 @@ struct OptionSpec {
 
 const std::vector<OptionSpec>& option_table();
 
-/// "double", "int", "bool", "string", "labels", "frame", "divisions" or "sizes".
+/// "double", "int", "bool", "string", "labels", "frame", "divisions", "sizes" or "faces".
 std::string option_type(const OptionSpec& option);
 
 /// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"),
@@ -68,8 +69,8 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option);
 /// a frame whose axes are no directions or not at right angles.
 void check(const MeshOptions& options);
 
-/// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division or a local size names a
-/// face or edge it does not have.
+/// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division, a local size or a face to keep
+/// names a face or edge it does not have.
 void check(const MeshOptions& options, double diagonal, int face_count, int edge_count);
 
 /// "+X", "-X", ... of a label 0..5.

@@ -41,6 +41,73 @@ QualitySummary summarise(const HexMesh& mesh) {
   return s;
 }
 
+double edge_ratio(const std::vector<Vec3>& points, const Hex& hex) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const auto& [a, b] : kHexEdges) {
+    const double length = (points[hex[b]] - points[hex[a]]).norm();
+    least = std::min(least, length);
+    most = std::max(most, length);
+  }
+  return least > 0 ? most / least : std::numeric_limits<double>::infinity();
+}
+
+double skew(const std::vector<Vec3>& points, const Hex& hex) {
+  std::array<Vec3, 3> axes;
+  for (int d = 0; d < 3; ++d) {
+    axes[d] = Vec3::Zero();
+    for (int c = 0; c < 8; ++c) axes[d] += (2 * kCornerCoordinates[c][d] - 1) * points[hex[c]];
+    const double length = axes[d].norm();
+    if (!(length > 0)) return 1;
+    axes[d] /= length;
+  }
+  return std::min(1.0, std::max({std::abs(axes[0].dot(axes[1])), std::abs(axes[1].dot(axes[2])), std::abs(axes[2].dot(axes[0]))}));
+}
+
+double warpage(const std::vector<Vec3>& points, const Hex& hex) {
+  double worst = 0;
+  for (const auto& face : kHexFaces) {
+    std::array<Vec3, 4> normals;
+    for (int k = 0; k < 4; ++k) {
+      const Vec3& at = points[hex[face[k]]];
+      normals[k] = (points[hex[face[(k + 1) % 4]]] - at).cross(points[hex[face[(k + 3) % 4]]] - at);
+      const double length = normals[k].norm();
+      normals[k] = length > 0 ? Vec3(normals[k] / length) : Vec3::Zero();
+    }
+    const double across = std::min(normals[0].dot(normals[2]), normals[1].dot(normals[3]));
+    worst = std::max(worst, 1 - across * across * across);
+  }
+  return worst;
+}
+
+namespace {
+
+class SpreadOf {
+ public:
+  void add(double value) {
+    spread_.min = count_ == 0 ? value : std::min(spread_.min, value);
+    spread_.max = count_ == 0 ? value : std::max(spread_.max, value);
+    spread_.mean += value;
+    ++count_;
+  }
+  Spread get() const { return {spread_.min, count_ > 0 ? spread_.mean / count_ : 0.0, spread_.max}; }
+
+ private:
+  Spread spread_;  // mean: the sum
+  double count_ = 0;
+};
+
+}  // namespace
+
+ShapeSummary summarise_shape(const HexMesh& mesh) {
+  SpreadOf ratio, skewness, warp;
+  for (const Hex& h : mesh.hexes) {
+    ratio.add(edge_ratio(mesh.points, h));
+    skewness.add(skew(mesh.points, h));
+    warp.add(warpage(mesh.points, h));
+  }
+  return {ratio.get(), skewness.get(), warp.get()};
+}
+
 double hex_volume(const std::vector<Vec3>& points, const Hex& hex) {
   const double g = 1 / std::sqrt(3.0);
   double volume = 0;

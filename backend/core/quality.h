@@ -1,4 +1,4 @@
-// Quality of hexahedra, as the field (Verdict) and hexjudge-like tools define it.
+// Quality of hexahedra, as the field defines it: Stimpson, Ernst, Knupp, Pebay, Thompson, "The Verdict Geometric Quality Library" (SAND2007-1751).
 #pragma once
 
 #include "core/mesh.h"
@@ -19,6 +19,28 @@ struct QualitySummary {
 };
 
 QualitySummary summarise(const HexMesh& mesh);
+
+/// Longest over shortest edge (Verdict's hexahedron edge ratio): 1 is best; infinity where an edge has no length.
+double edge_ratio(const std::vector<Vec3>& points, const Hex& hex);
+
+/// Largest |cosine| between the cell's three principal axes, the sums of its four edges each way (Verdict's hexahedron skew): 0 is best, at
+/// most 1; 1 where an axis has no length.
+double skew(const std::vector<Vec3>& points, const Hex& hex);
+
+/// Of the most warped side: 1 - the smaller cube of the cosines between normals at opposite corners (Verdict's quadrilateral warpage, which
+/// has no hexahedral one): 0 for plane sides, at most 2; 1 where a corner has no normal.
+double warpage(const std::vector<Vec3>& points, const Hex& hex);
+
+struct Spread {
+  double min = 0, mean = 0, max = 0;
+};
+
+/// Over all cells; all 0 for a mesh without cells.
+struct ShapeSummary {
+  Spread edge_ratio, skew, warpage;
+};
+
+ShapeSummary summarise_shape(const HexMesh& mesh);
 
 /// Volume of a trilinear cell, exact (2 x 2 x 2 Gauss points).
 double hex_volume(const std::vector<Vec3>& points, const Hex& hex);

@@ -28,6 +28,8 @@ Json options_json(const MeshOptions& options) {
   return json;
 }
 
+Json spread_json(const Spread& spread) { return {{"min", spread.min}, {"mean", spread.mean}, {"max", spread.max}}; }
+
 Json names(int dim, const std::vector<int>& ids) {
   Json json = Json::array();
   for (int id : ids) json.push_back(name(CadRef{dim, id}));
@@ -74,12 +76,18 @@ CadCapture capture(const Association& association, int vertex_count, const std::
   c.faces = face_count;
   c.lost_vertices = association.lost_vertices;
   c.lost_edges = association.lost_edges;
-  for (const auto& patch : association.patches)
-    if (patch.size() > 1) c.lost_faces.insert(c.lost_faces.end(), patch.begin(), patch.end());
-  for (auto* list : {&c.lost_vertices, &c.lost_edges, &c.lost_faces}) std::sort(list->begin(), list->end());
-  c.vertices_captured = c.vertices - static_cast<int>(c.lost_vertices.size());
-  c.edges_captured = c.edges - static_cast<int>(c.lost_edges.size());
-  c.faces_captured = c.faces - static_cast<int>(c.lost_faces.size());
+  c.ignored_vertices = association.ignored_vertices;
+  c.ignored_edges = association.ignored_edges;
+  c.ignored_faces = association.ignored_faces;
+  for (auto* list : {&c.lost_vertices, &c.lost_edges, &c.ignored_vertices, &c.ignored_edges, &c.ignored_faces}) std::sort(list->begin(), list->end());
+  for (const auto& patch : association.patches) {
+    if (patch.size() < 2 || std::binary_search(c.ignored_faces.begin(), c.ignored_faces.end(), patch[0])) continue;
+    c.lost_faces.insert(c.lost_faces.end(), patch.begin(), patch.end());
+  }
+  std::sort(c.lost_faces.begin(), c.lost_faces.end());
+  c.vertices_captured = c.vertices - static_cast<int>(c.lost_vertices.size() + c.ignored_vertices.size());
+  c.edges_captured = c.edges - static_cast<int>(c.lost_edges.size() + c.ignored_edges.size());
+  c.faces_captured = c.faces - static_cast<int>(c.lost_faces.size() + c.ignored_faces.size());
   return c;
 }
 
@@ -103,6 +111,9 @@ std::string to_json(const MeshReport& report) {
                      {"mean_scaled_jacobian", report.quality.mean_scaled_jacobian},
                      {"inverted", report.quality.inverted},
                      {"histogram", report.quality.histogram},
+                     {"edge_ratio", spread_json(report.shape.edge_ratio)},
+                     {"skew", spread_json(report.shape.skew)},
+                     {"warpage", spread_json(report.shape.warpage)},
                      {"straightened_edges", report.straightened_edges}};
   json["volume"] = {{"mesh", report.volume}, {"cad", report.cad_volume}};
   json["worst_cells"] = Json::array();
@@ -112,9 +123,12 @@ std::string to_json(const MeshReport& report) {
                                    {"scaled_jacobian", cell.scaled_jacobian},
                                    {"faces", names(2, cell.faces)}});
   const CadCapture& c = report.capture;
-  json["cad"] = {{"vertices", {{"total", c.vertices}, {"captured", c.vertices_captured}, {"lost", names(0, c.lost_vertices)}}},
-                 {"edges", {{"total", c.edges}, {"captured", c.edges_captured}, {"lost", names(1, c.lost_edges)}}},
-                 {"faces", {{"total", c.faces}, {"captured", c.faces_captured}, {"lost", names(2, c.lost_faces)}}}};
+  const auto entities = [](int dim, int total, int captured, const std::vector<int>& lost, const std::vector<int>& ignored) {
+    return Json{{"total", total}, {"captured", captured}, {"lost", names(dim, lost)}, {"ignored", names(dim, ignored)}};
+  };
+  json["cad"] = {{"vertices", entities(0, c.vertices, c.vertices_captured, c.lost_vertices, c.ignored_vertices)},
+                 {"edges", entities(1, c.edges, c.edges_captured, c.lost_edges, c.ignored_edges)},
+                 {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)}};
   const QuantizationRecord& q = report.quantization;
   json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
                           {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};

@@ -26,7 +26,8 @@ struct WorstCell {
 struct CadCapture {
   int vertices = 0, edges = 0, faces = 0;
   int vertices_captured = 0, edges_captured = 0, faces_captured = 0;
-  std::vector<int> lost_vertices, lost_edges, lost_faces;   ///< ascending
+  std::vector<int> lost_vertices, lost_edges, lost_faces;           ///< ascending
+  std::vector<int> ignored_vertices, ignored_edges, ignored_faces;  ///< ascending: left out on demand (feature_angle), neither captured nor lost
 };
 
 /// The quantization's proof: no other integers have an objective below the bound.
@@ -44,6 +45,7 @@ struct MeshReport {
   double peak_memory_mb = 0;
   int tets = 0, charts = 0, blocks = 0, hexes = 0, nodes = 0;
   QualitySummary quality;               ///< of the corners (first order)
+  ShapeSummary shape;                   ///< likewise
   double volume = 0;                    ///< mm^3, of the mesh
   double cad_volume = 0;                ///< mm^3
   std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most 20
@@ -57,7 +59,7 @@ struct MeshReport {
 /// The `count` cells of least scaled Jacobian, ties by index.
 std::vector<WorstCell> worst_cells(const HexMesh& mesh, const Association& association, int count = 20);
 
-/// Counts the model's entities against the association's lists. A face in a patch of several faces is lost: the mesh does not tell it apart.
+/// Counts the model's entities against the association's lists. A face in a patch of several faces is lost (or ignored): the mesh does not tell it apart.
 /// `real_edges` are the CAD edges that count (neither seam nor degenerate).
 CadCapture capture(const Association& association, int vertex_count, const std::vector<int>& real_edges, int face_count);
 

@@ -225,16 +225,28 @@ std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& 
   return chains;
 }
 
-Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, double min_bend, const Monitor& monitor) {
+double bend(const CadEdge& edge) { return std::max(std::abs(edge.min_angle - std::numbers::pi), std::abs(edge.max_angle - std::numbers::pi)); }
+
+std::vector<char> smooth_edges(const CadModel& model, double angle, const std::vector<int>& keep_faces) {
+  const auto kept = [&](int face) { return std::find(keep_faces.begin(), keep_faces.end(), face) != keep_faces.end(); };
+  std::vector<char> smooth(static_cast<std::size_t>(model.edge_count()) + 1, 0);
+  for (int e = 1; e <= model.edge_count(); ++e) {
+    const CadEdge& edge = model.edge(e);
+    smooth[e] = bend(edge) < angle && !kept(edge.faces[0]) && !kept(edge.faces[1]);
+  }
+  return smooth;
+}
+
+Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out,
+                       const Monitor& monitor) {
   const auto chains = edge_chains(model, mesh);
   std::vector<int> order;
   for (int e = 1; e <= model.edge_count(); ++e) {
     if (!model.edge(e).seam && !model.edge(e).degenerate && !model.edge(e).tiny) order.push_back(e);
   }
   // Sharp edges first, then long ones: where two exclude each other the one that matters more stays.
-  const auto bend = [&](int e) { return std::max(std::abs(model.edge(e).min_angle - std::numbers::pi), std::abs(model.edge(e).max_angle - std::numbers::pi)); };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    const bool sharp_a = bend(a) > std::numbers::pi / 6, sharp_b = bend(b) > std::numbers::pi / 6;
+    const bool sharp_a = bend(model.edge(a)) > std::numbers::pi / 6, sharp_b = bend(model.edge(b)) > std::numbers::pi / 6;
     if (sharp_a != sharp_b) return sharp_a;
     return model.edge(a).length > model.edge(b).length * (1 + 1e-9);
   });
@@ -244,7 +256,7 @@ Features find_features(const CadModel& model, const TetMesh& mesh, const Labelli
     monitor.check();
     if (chains[e].size() < 2) {
       features.edges.push_back({e, EdgeCapture::kLost, "the tet mesh has no nodes on it"});
-    } else if (bend(e) < min_bend) {
+    } else if (left_out[e]) {
       features.edges.push_back({e, EdgeCapture::kLost, "smooth, below the feature angle"});
     } else {
       features.edges.push_back(finder.add(e, chains[e], features.charts));

@@ -30,7 +30,14 @@ struct Features {
 /// The mesh points along a CAD edge from its start to its end vertex, ordered; empty where the mesh has no segments there.
 std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& mesh);
 
-/// `min_bend`: edges whose faces meet within this angle of smooth everywhere (radians) are left out; 0 keeps all.
-Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, double min_bend, const Monitor& monitor);
+/// How far the faces beside a CAD edge are from smooth at most, radians.
+double bend(const CadEdge& edge);
+
+/// Per CAD edge number whether it bends less than `angle` (radians) everywhere and is on none of the faces to keep.
+std::vector<char> smooth_edges(const CadModel& model, double angle, const std::vector<int>& keep_faces = {});
+
+/// `left_out`: per CAD edge number, those that get no feature chart.
+Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out,
+                       const Monitor& monitor);
 
 }  // namespace polycube

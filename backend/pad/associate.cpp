@@ -125,7 +125,7 @@ class Associator {
   Association associate_once() {
     lost_.assign(model_.edge_count() + 1, 1);
     for (int e : real_) {
-      if (options_.edge_chains[e].size() > 1) lost_[e] = 0;
+      if (options_.edge_chains[e].size() > 1 && !ignored(e)) lost_[e] = 0;
     }
     place_vertices();
     route_all();
@@ -146,7 +146,7 @@ class Associator {
     std::map<std::pair<int, int>, std::pair<int, int>> ends;  // (vertex's point, next point) -> (edge, end)
     for (int e : real_) {
       const auto& chain = options_.edge_chains[e];
-      if (chain.size() < 2) continue;
+      if (chain.size() < 2 || ignored(e)) continue;
       ends[{chain[0], chain[1]}] = {e, 0};
       ends[{chain.back(), chain[chain.size() - 2]}] = {e, 1};
     }
@@ -224,6 +224,7 @@ class Associator {
   void place_vertices() {
     std::vector<char> wanted(model_.vertex_count() + 1, 0);
     for (int e : real_) {
+      if (ignored(e)) continue;
       for (int v : model_.edge(e).vertices) wanted[v] = 1;
     }
     std::vector<int> tet_node(model_.vertex_count() + 1, -1);
@@ -565,9 +566,9 @@ class Associator {
     }
     std::vector<char> reached(model_.vertex_count() + 1, 0), wanted(model_.vertex_count() + 1, 0);
     for (int e : real_) {
-      for (int v : model_.edge(e).vertices) wanted[v] = 1;
+      for (int v : model_.edge(e).vertices) wanted[v] = std::max<char>(wanted[v], ignored(e) ? kIgnored : kWanted);
       if (lost_[e]) {
-        result.lost_edges.push_back(e);
+        (ignored(e) ? result.ignored_edges : result.lost_edges).push_back(e);
         continue;
       }
       for (int v : model_.edge(e).vertices) reached[v] = 1;
@@ -583,11 +584,29 @@ class Associator {
       if (reached[v]) {
         result.point_cad[vertex_node_[v]] = {0, v};
       } else {
-        result.lost_vertices.push_back(v);
+        (wanted[v] == kIgnored ? result.ignored_vertices : result.lost_vertices).push_back(v);
       }
+    }
+    note_ignored_faces(result);
+  }
+
+  // Patches whose faces ignored edges alone join.
+  void note_ignored_faces(Association& result) const {
+    std::vector<int> group(model_.face_count() + 1);
+    std::iota(group.begin(), group.end(), 0);
+    for (int e : result.ignored_edges) {
+      const int a = group[model_.edge(e).faces[0]], b = group[model_.edge(e).faces[1]];
+      std::replace(group.begin(), group.end(), std::max(a, b), std::min(a, b));
+    }
+    for (const auto& patch : result.patches) {
+      const bool one = std::all_of(patch.begin(), patch.end(), [&](int f) { return group[f] == group[patch[0]]; });
+      if (patch.size() > 1 && one) result.ignored_faces.insert(result.ignored_faces.end(), patch.begin(), patch.end());
     }
   }
 
+  bool ignored(int e) const { return !options_.ignored.empty() && options_.ignored[e]; }
+
+  static constexpr char kIgnored = 1, kWanted = 2;  // of a vertex: on ignored edges only; on others
   const CadModel& model_;
   const TetMesh& tets_;
   const HexBoundary& b_;

@@ -20,6 +20,7 @@ struct HexBoundary {
 struct AssociateOptions {
   std::vector<std::vector<int>> edge_chains;   ///< per CAD edge number (entry 0 unused): tet mesh points along it, empty to leave the edge out
   double size = 0;                             ///< typical edge length, mm
+  std::vector<char> ignored;                   ///< per CAD edge number: to be left out, and no loss; may be empty
 };
 
 /// Chooses a node for every CAD vertex and a path of mesh edges for every CAD edge with a chain, such that the quads fall into one region per

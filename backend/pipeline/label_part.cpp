@@ -40,7 +40,8 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   label_options.frame = pose.frame;
   part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
   absorb_strays(part.tets, part.labelling, monitor);
-  part.features = find_features(pose.model, part.tets, part.labelling, options.feature_angle * std::numbers::pi / 180, monitor);
+  part.features = find_features(pose.model, part.tets, part.labelling,
+                                smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces), monitor);
   book("label");
   if (until == Until::kMap) {
     DeformOptions deform_options;

@@ -59,7 +59,7 @@ constexpr double kCoarsest = 1e-6;
 struct Candidate {
   std::string name;
   double strictness = 100;    // of LabelOptions
-  double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path
+  double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path either
   bool features = true;       // feature charts at all
   double refine = 1;          // on the number of cells along an edge
   double tet_size = 1;        // on the size of the tets
@@ -77,7 +77,7 @@ struct Structure {
 
 /// Those that keep every CAD edge.
 std::vector<Candidate> candidates(const MeshOptions& options) {
-  const Candidate halved{"all CAD edges", 100, options.feature_angle * std::numbers::pi / 180};
+  const Candidate halved{"all CAD edges"};
   Candidate whole = halved;
   whole.name += ", fillets in one chart";
   whole.widest_bend = kFilletsWhole;
@@ -99,9 +99,8 @@ std::vector<Candidate> candidates(const MeshOptions& options) {
 }
 
 /// Better than nothing, for a look at volumes and modes.
-std::vector<Candidate> last_candidates(const MeshOptions& options) {
-  const double sharp = std::max(options.feature_angle * std::numbers::pi / 180, std::numbers::pi / 18);
-  return {{"sharp CAD edges, no feature charts", 100, sharp, false},
+std::vector<Candidate> last_candidates() {
+  return {{"sharp CAD edges, no feature charts", 100, std::numbers::pi / 18, false},
           {"no CAD edges", 100, kNoEdge, false},
           {"no CAD edges, other tets", 100, kNoEdge, false, 1, 0.8}};
 }
@@ -138,6 +137,7 @@ class Run {
   Run(const Pose& pose, const MeshOptions& options, const Monitor& monitor)
       : pose_(pose), model_(pose.model), options_(options), monitor_(monitor), size_(effective_size(options, model_.diagonal())) {
     if (options.hexes > 0) size_ = std::cbrt(model_.volume() / options.hexes);
+    ignored_ = smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
     report_.version = POLYCUBE_VERSION;
     report_.options = options;
     report_.size = size_;
@@ -177,7 +177,7 @@ class Run {
       if (best || fits_left_ <= 0) break;
       attempt_with(u.candidate.name + " but where cells stay inverted", [&] { return relax(u); });
     }
-    for (const Candidate& c : last_candidates(options_)) {
+    for (const Candidate& c : last_candidates()) {
       if (best) break;
       unfinished_.clear();
       fits_left_ = kLastFits;
@@ -259,10 +259,11 @@ class Run {
       return found;
     });
     if (labels.valid() && labels.turning_points + labels.bad_turns == 0) flawless_.insert(c.widest_bend);
-    s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, c.min_bend, monitor_); });
+    s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, left_out(c), monitor_); });
     if (!c.features) s.features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};
-    for (const FeatureEdge& e : s.features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), bend(e.edge) < c.min_bend});
+    const std::vector<char> out = left_out(c);
+    for (const FeatureEdge& e : s.features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), out[e.edge]});
     plan.push_back({static_cast<int>(s.features.charts.size())});
     if (!tried_.insert(std::move(plan)).second) throw StageFailed("label", "the same as one before");
 
@@ -306,10 +307,14 @@ class Run {
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
     u.options.size = typical_edge(u.complex.mesh);
     u.options.edge_chains = edge_chains(model_, s.tets);
+    u.options.ignored = ignored_;
+    const std::vector<char> out = left_out(c);
     for (const FeatureEdge& e : s.features.edges) {
-      if (e.capture != EdgeCapture::kLost) continue;
-      if (bend(e.edge) < c.min_bend) u.options.edge_chains[e.edge].clear();
-      if (bend(e.edge) >= c.min_bend && first) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+      if (out[e.edge]) {
+        if (!ignored_[e.edge]) u.options.edge_chains[e.edge].clear();
+      } else if (e.capture == EdgeCapture::kLost && first) {
+        monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+      }
     }
     capture_and_fit(u);
     if (u.fitted.inverted > 0) {
@@ -323,7 +328,8 @@ class Run {
   MeshResult relax(Unfinished& u) {
     for (int round = 0; round < kRelaxRounds; ++round) {
       const int count = 1 << round;  // more and more of them, to come to an end
-      if (!give_up(u.padded, kSmoothBend, count, u.options) && !give_up(u.padded, std::numbers::pi, count, u.options)) break;
+      const auto drop = [&](double limit, bool kept_too) { return give_up(u.padded, limit, kept_too, count, u.options); };
+      if (!drop(kSmoothBend, false) && !drop(std::numbers::pi, false) && !drop(kNoEdge, true)) break;
       capture_and_fit(u);
       if (u.fitted.inverted == 0) return finished(std::move(u));
     }
@@ -373,8 +379,14 @@ class Run {
     }
   }
 
-  // Drops the `count` CAD edges that most nodes of inverted cells stand on, of those that bend less than `limit`. False if there is none.
-  bool give_up(const PaddedMesh& padded, double limit, int count, AssociateOptions& options) const {
+  bool on_kept_face(int edge) const {
+    const auto& [a, b] = model_.edge(edge).faces;
+    return std::any_of(options_.keep_faces.begin(), options_.keep_faces.end(), [&](int f) { return f == a || f == b; });
+  }
+
+  // Drops the `count` CAD edges that most nodes of inverted cells stand on, of those that bend less than `limit` (and are on faces to keep
+  // only if `kept_too`). False if there is none.
+  bool give_up(const PaddedMesh& padded, double limit, bool kept_too, int count, AssociateOptions& options) const {
     std::vector<std::set<int>> edges_at(padded.mesh.points.size());
     for (std::size_t i = 0; i < padded.association.segments.size(); ++i) {
       for (int n : padded.association.segments[i]) edges_at[n].insert(padded.association.segment_edge[i]);
@@ -384,7 +396,7 @@ class Run {
       if (scaled_jacobian(padded.mesh.points, h) > 0) continue;
       for (int n : h) {
         for (int e : edges_at[n]) {
-          if (!options.edge_chains[e].empty() && bend(e) < limit) ++blame[e];
+          if (!options.edge_chains[e].empty() && bend(model_.edge(e)) < limit && (kept_too || !on_kept_face(e))) ++blame[e];
         }
       }
     }
@@ -434,9 +446,11 @@ class Run {
     return std::move(choices[chosen]);
   }
 
-  // How far the faces beside a CAD edge are from smooth, radians.
-  double bend(int edge) const {
-    return std::max(std::abs(model_.edge(edge).min_angle - std::numbers::pi), std::abs(model_.edge(edge).max_angle - std::numbers::pi));
+  // Per CAD edge: whether the candidate does without it.
+  std::vector<char> left_out(const Candidate& c) const {
+    std::vector<char> out = smooth_edges(model_, c.min_bend);
+    for (std::size_t e = 0; e < out.size(); ++e) out[e] |= ignored_[e];
+    return out;
   }
 
   static double typical_edge(const HexMesh& mesh) {
@@ -500,6 +514,7 @@ class Run {
   double size_;
   std::map<double, TetMesh> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
+  std::vector<char> ignored_;  // per CAD edge: the user does without it
   std::vector<Unfinished> unfinished_;
   std::set<double> flawless_;  // widest bends with whose labels nothing is wrong: stricter ones would be the same
   std::map<std::tuple<double, double, bool, double, double>, Structure> structures_;
@@ -533,6 +548,7 @@ MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor
   r.options = options;
   r.size /= pose.scale;
   r.quality = quality;
+  r.shape = summarise_shape(result.mesh);
   r.volume = 0;
   for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
   r.cad_volume = model.volume();

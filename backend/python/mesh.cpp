@@ -28,13 +28,13 @@ py::dict groups(const Mesh& mesh) {
   return all;
 }
 
-py::array_t<double> qualities(const Mesh& mesh) {
+py::array_t<double> per_cell(const Mesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&)) {
   std::vector<double> values;
   values.reserve(mesh.fem.hexes.size());
   for (const auto& nodes : mesh.fem.hexes) {
     Hex corners;
     std::copy_n(nodes.begin(), 8, corners.begin());
-    values.push_back(scaled_jacobian(mesh.fem.points, corners));
+    values.push_back(measure(mesh.fem.points, corners));
   }
   return to_array(values);
 }
@@ -84,7 +84,10 @@ void bind_mesh(py::module_& module) {
       std::make_pair("segments", [](const Mesh& m) { return py::object(to_array<int>(m.fem.segments, m.fem.order == 2 ? 3 : 2)); }),
       std::make_pair("segment_edge", [](const Mesh& m) { return py::object(to_array(m.fem.segment_edge)); }),
       std::make_pair("groups", [](const Mesh& m) { return py::object(groups(m)); }),
-      std::make_pair("scaled_jacobian", [](const Mesh& m) { return py::object(qualities(m)); }),
+      std::make_pair("scaled_jacobian", [](const Mesh& m) { return py::object(per_cell(m, scaled_jacobian)); }),
+      std::make_pair("edge_ratio", [](const Mesh& m) { return py::object(per_cell(m, edge_ratio)); }),
+      std::make_pair("skew", [](const Mesh& m) { return py::object(per_cell(m, skew)); }),
+      std::make_pair("warpage", [](const Mesh& m) { return py::object(per_cell(m, warpage)); }),
       std::make_pair("report", [](const Mesh& m) { return report(m); }));
   std::apply([&](const auto&... field) { (cls.def_property_readonly(field.first, field.second), ...); }, fields);
   cls.def("to_dict", [fields](const Mesh& m) {

@@ -25,6 +25,13 @@ std::string frame_text(const py::handle& axes) {
   return text;
 }
 
+/// Faces as names or numbers.
+std::string faces_text(const py::iterable& faces) {
+  std::string text;
+  for (const py::handle face : faces) text += (text.empty() ? "" : ",") + std::string(py::isinstance<py::int_>(face) ? "Face" : "") + std::string(py::str(face));
+  return text;
+}
+
 py::dict describe(const OptionSpec& option) {
   const MeshOptions defaults;
   py::dict entry;
@@ -38,7 +45,8 @@ py::dict describe(const OptionSpec& option) {
           entry["default"] = py::dict();
         } else if constexpr (std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
           entry["default"] = py::list();
-        } else if constexpr (std::is_same_v<decltype(member), Divisions MeshOptions::*> || std::is_same_v<decltype(member), LocalSizes MeshOptions::*>) {
+        } else if constexpr (std::is_same_v<decltype(member), Divisions MeshOptions::*> || std::is_same_v<decltype(member), LocalSizes MeshOptions::*> ||
+                             std::is_same_v<decltype(member), FaceList MeshOptions::*>) {
           entry["default"] = "";
         } else {
           entry["default"] = defaults.*member;
@@ -63,6 +71,8 @@ MeshOptions options_from(const py::kwargs& given) {
     const std::string name = py::str(key);
     if (name == "frame" && py::isinstance<py::iterable>(value) && !py::isinstance<py::str>(value)) {
       if (const std::string text = frame_text(value); !text.empty()) texts.emplace_back(name, text);
+    } else if (name == "keep_faces" && py::isinstance<py::iterable>(value) && !py::isinstance<py::str>(value)) {
+      texts.emplace_back(name, faces_text(py::reinterpret_borrow<py::iterable>(value)));
     } else if (!py::isinstance<py::dict>(value)) {
       texts.emplace_back(name, py::str(value));
     } else if (const std::string text = labels_text(py::reinterpret_borrow<py::dict>(value)); !text.empty()) {

@@ -97,6 +97,8 @@ def main():
     quality, captured = report["quality"], report["cad"]
     say("Mesh: {} second-order hexahedra, {} nodes, {:.1f} s".format(mesh.Hexahedra, mesh.NodeCount, seconds))
     say("Quality: scaled Jacobian min {:.3f}, mean {:.3f}".format(quality["min_scaled_jacobian"], quality["mean_scaled_jacobian"]))
+    worst = ", ".join("{} {:.2f}".format(name.replace("_", " "), quality[name]["max"]) for name in ("edge_ratio", "skew", "warpage"))
+    say("Worst cells: " + worst)
     say("CAD captured: " + ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")))
     say("Volume: mesh {:.0f} mm3, CAD {:.0f} mm3".format(report["volume"]["mesh"], report["volume"]["cad"]))
 

@@ -11,10 +11,11 @@ import unittest
 
 import FreeCAD
 import ObjectsFem
+import Part
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import objects
+from freecad.polycube import fem_mesh, objects
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "examples"))
 import bracket  # noqa: E402  (the demo's part)
@@ -222,6 +223,41 @@ class DemoPart(SolverTest):
         self.assertLess((total_reaction(path) + nodal_loads(path)).Length, 0.005 * 4000)
         # 0.0174 mm at size 4, 0.0176 mm at size 3, with the pressure on the wall's top that is left out here
         self.assertAlmostEqual(max(result.DisplacementLengths), 0.0175, delta=0.0015)
+
+
+class FeatureAngle(SolverTest):
+    """A block with one edge along Z rounded, whose face on the +X side carries a constraint."""
+
+    def setUp(self):
+        self.document = FreeCAD.newDocument()
+        block = Part.makeBox(20, 20, 10)
+        self.part = self.document.addObject("Part::Feature", "Block")
+        self.part.Shape = block.makeFillet(6, [edge for edge in block.Edges if edge.BoundBox.XMin > 19 and edge.BoundBox.YMin > 19])
+        faces = self.part.Shape.Faces
+        self.side, self.other = (
+            "Face{}".format(next(number for number, face in enumerate(faces, 1) if face.CenterOfMass[axis] > 19.9)) for axis in (0, 1)
+        )
+        self.rounding = "Face{}".format(next(number for number, face in enumerate(faces, 1) if face.Surface.TypeId == "Part::GeomCylinder"))
+        self.analysis, _ = calculix.make_analysis(self.part, [self.side])
+
+    def test_faces_with_constraints_are_kept(self):
+        obj = polycube.create_fem_mesh(self.part, size=5, order=1, feature_angle=10, analysis=self.analysis)
+        captured = json.loads(obj.Report)["cad"]
+        self.assertEqual(set(captured["faces"]["ignored"]), {self.other, self.rounding})
+        self.assertEqual((captured["faces"]["lost"], len(captured["edges"]["ignored"])), ([], 1))
+        self.assertEqual(obj.KeepFaces, "")
+        obj.KeepFaces = self.other
+        polycube.update_fem_mesh(obj)
+        self.assertEqual(json.loads(obj.Report)["cad"]["faces"]["ignored"], [])
+        self.assertEqual(obj.KeepFaces, self.other)
+
+    def test_edges_with_constraints_keep_their_faces(self):
+        shape = self.part.Shape
+        rim = next(edge for edge in shape.getElement(self.rounding).Edges if any(edge.isSame(other) for other in shape.getElement(self.other).Edges))
+        number = next(number for number, edge in enumerate(shape.Edges, 1) if edge.isSame(rim))
+        support = next(member for member in self.analysis.Group if member.isDerivedFrom("Fem::ConstraintFixed"))
+        support.References = [(self.part, "Edge{}".format(number))]
+        self.assertEqual(set(fem_mesh.constrained_faces(self.part, self.analysis)), {self.other, self.rounding})
 
 
 class Warnings(SolverTest):

@@ -18,7 +18,7 @@ class Options(unittest.TestCase):
         self.assertLessEqual({"size", "hexes", "coarsest", "order", "time_limit", "element_type", "labels", "threads"}, set(table))
         for option in table.values():
             self.assertEqual(set(option), {"name", "unit", "meaning", "type", "default", "min", "max", "choices", "advanced"})
-            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes"))
+            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "faces"))
         self.assertEqual(table["order"]["default"], 2)
 
     def test_bad_options_are_named(self):
@@ -33,6 +33,11 @@ class Options(unittest.TestCase):
             with self.subTest(bad), self.assertRaises(ValueError):
                 _polycube.mesh(path="a.step", brep=text, **bad)
 
+    def test_faces_to_keep_by_name_or_number(self):
+        for faces in (["Face3", "Face1"], [1, 3], "Face1,Face3"):
+            mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2, feature_angle=5, keep_faces=faces)
+            self.assertEqual(mesh.report["options"]["keep_faces"], "Face1,Face3")
+
     def test_none_is_the_default(self):
         mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2, order=None, labels=None)
         self.assertEqual(mesh.order, 2)
@@ -45,7 +50,8 @@ class Mesh(FolderTest):
         self.assertEqual(mesh.nodes.shape, (9 * 3 * 3, 3))
         self.assertEqual(mesh.quads.shape, (8 + 64, 4))
         self.assertEqual(mesh.report["counts"]["hexes"], 32)
-        np.testing.assert_allclose(mesh.scaled_jacobian, 1)
+        for measure, best in (("scaled_jacobian", 1), ("edge_ratio", 1), ("skew", 0), ("warpage", 0)):
+            np.testing.assert_allclose(getattr(mesh, measure), best, atol=1e-9)
         self.assertEqual({name for name in mesh.groups if name.startswith("Face")}, {f"Face{i}" for i in range(1, 7)})
         for i, face in enumerate(box().Faces, 1):
             nodes = mesh.nodes[mesh.groups[f"Face{i}"]["nodes"]]
@@ -87,7 +93,7 @@ class Mesh(FolderTest):
         again = pickle.loads(pickle.dumps(mesh.to_dict()))
         np.testing.assert_array_equal(again["nodes"], mesh.nodes)
         self.assertEqual(again["report"]["version"], _polycube.__version__)
-        self.assertEqual(set(again), {"order", "nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "groups", "scaled_jacobian", "report", "hex_block"})
+        self.assertEqual(set(again), {"order", "nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "groups", "scaled_jacobian", "edge_ratio", "skew", "warpage", "report", "hex_block"})
 
     def test_smesh_order_mirrors(self):
         mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2)

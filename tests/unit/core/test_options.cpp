@@ -128,6 +128,18 @@ TEST(Options, RefusesBadDivisionsAndSizes) {
   EXPECT_THAT(complaint({{"min_layers", "0"}}), HasSubstr("--min-layers"));
 }
 
+TEST(Options, FacesToKeepAreReadSortedAndOnce) {
+  const MeshOptions o = parse_options({{"keep_faces", "Face7, Face3,Face7"}});
+  EXPECT_EQ(o.keep_faces, (FaceList{3, 7}));
+  for (const OptionSpec& option : option_table()) {
+    if (option.name == "keep_faces") {
+      EXPECT_EQ(option_text(o, option), "Face3,Face7");
+    }
+  }
+  for (const char* bad : {"Edge1", "Face", "Face0", "Face1x", "3", "Face1,,Face2", "Face1-Face2"})
+    EXPECT_THAT(complaint({{"keep_faces", bad}}), HasSubstr("--keep-faces")) << bad;
+}
+
 TEST(Options, AgainstThePart) {
   MeshOptions o;
   o.size = 11;
@@ -146,6 +158,7 @@ TEST(Options, AgainstThePart) {
   EXPECT_THAT(complains("divisions", "Edge13=2"), HasSubstr("Edge13 does not exist, the part has 12 edges"));
   EXPECT_THAT(complains("divisions", "Face1-Face7=2"), HasSubstr("Face7 does not exist, the part has 6 faces"));
   EXPECT_THAT(complains("sizes", "Face9=2"), HasSubstr("Face9"));
+  EXPECT_THAT(complains("keep_faces", "Face7"), HasSubstr("--keep-faces: Face7 does not exist"));
   EXPECT_EQ(complains("sizes", "Face6=2"), "");
   EXPECT_DOUBLE_EQ(effective_size(MeshOptions{}, 60), 2);
 }

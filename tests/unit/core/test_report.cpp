@@ -46,12 +46,27 @@ TEST(Report, CaptureCountsMergedFacesAsLost) {
   EXPECT_EQ(c.lost_faces, (std::vector<int>{1, 2}));
 }
 
+TEST(Report, WhatIsIgnoredIsNeitherCapturedNorLost) {
+  Association a = association_of_end();
+  a.patches = {{3, 4}, {1, 2}};
+  a.ignored_edges = {2};
+  a.ignored_vertices = {8};
+  a.ignored_faces = {1, 2};
+  const CadCapture c = capture(a, 8, {1, 2, 3}, 4);
+  EXPECT_EQ(c.vertices_captured, 7);
+  EXPECT_EQ(c.edges_captured, 1);
+  EXPECT_EQ(c.faces_captured, 0);
+  EXPECT_EQ(c.lost_faces, (std::vector<int>{3, 4}));
+  EXPECT_EQ(c.ignored_faces, (std::vector<int>{1, 2}));
+}
+
 TEST(Report, JsonHoldsWhatThePromiseSays) {
   MeshReport report;
   report.version = "1.2.3";
   report.options.labels = {{3, 0}};
   report.stages = {{"tet", 1.5}, {"label", 0.5}};
   report.capture = capture(association_of_end(), 8, {1, 2, 3}, 3);
+  report.shape.warpage = {0, 0.125, 0.25};
   report.warnings = {"a \"quoted\" line"};
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["version"], "1.2.3");
@@ -59,7 +74,9 @@ TEST(Report, JsonHoldsWhatThePromiseSays) {
   EXPECT_EQ(json["options"].size(), option_table().size());
   EXPECT_DOUBLE_EQ(json["seconds"].get<double>(), 2);
   EXPECT_EQ(json["cad"]["edges"]["lost"][0], "Edge3");
+  EXPECT_TRUE(json["cad"]["edges"]["ignored"].empty());
   EXPECT_EQ(json["quality"]["histogram"].size(), 10u);
+  EXPECT_DOUBLE_EQ(json["quality"]["warpage"]["max"].get<double>(), 0.25);
   EXPECT_EQ(json["warnings"][0], "a \"quoted\" line");
 }
 

@@ -52,12 +52,13 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     from . import objects
 
     _check_object(part)
-    result = mesh(part, size, order, progress, log, cancel, **more)
+    given = _given(size=size, order=order, **more)
+    result = mesh(part, progress=progress, log=log, cancel=cancel, **with_constraints(given, part, analysis))
     with transaction(part.Document, "Hexahedral mesh from shape"):
         obj = objects.make(part.Document, part, name)
         if analysis:
             analysis.addObject(obj)
-        _warn(obj, objects.set_mesh(obj, result, _given(size=size, order=order, **more)))
+        _warn(obj, objects.set_mesh(obj, result, given))
     return obj
 
 
@@ -68,10 +69,22 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None):
     part = objects.part_of(obj)
     _check_object(part)
     given = option_table.read(obj)
-    result = mesh(part, progress=progress, log=log, cancel=cancel, **given)
+    result = mesh(part, progress=progress, log=log, cancel=cancel, **with_constraints(given, part, objects.analysis_of(obj)))
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given))
     return obj
+
+
+def with_constraints(options, part, analysis):
+    """The options, with the faces that carry constraints of the analysis among those to keep."""
+    from . import fem_mesh
+
+    kept = options.get("keep_faces") or []
+    if isinstance(kept, str):
+        kept = [name for name in kept.replace(" ", "").split(",") if name]
+    names = ["Face{}".format(face) if isinstance(face, int) else face for face in kept]
+    names += [name for name in fem_mesh.constrained_faces(part, analysis) if name not in names]
+    return {**options, "keep_faces": ",".join(names)} if names else options
 
 
 @contextmanager

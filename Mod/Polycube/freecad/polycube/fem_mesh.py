@@ -73,7 +73,7 @@ def add_constraint_groups(mesh, result, part, analysis):
     each gets `<Material>_Volumes`.
     """
     warnings, node_groups, materials = [], [], []
-    lost = {name for kind in result.report["cad"].values() for name in kind["lost"]}
+    lost = {name for kind in result.report["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for member in analysis.Group:
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
         if kind in _TETRAHEDRA_ONLY or member.TypeId in _TETRAHEDRA_ONLY:
@@ -112,6 +112,22 @@ def _lost_force(mesh, result, part, member, references):
 def _references(member, part):
     """Names of the part's entities that a constraint refers to."""
     return [name for obj, names in getattr(member, "References", []) if obj == part for name in names if name]
+
+
+def constrained_faces(part, analysis):
+    """Names of the part's faces that carry constraints of the analysis, or have an edge or vertex that does; no mesh may do without them."""
+    faces = part.Shape.Faces
+    found = set()
+    for member in analysis.Group if analysis else ():
+        if not member.isDerivedFrom("Fem::Constraint"):
+            continue
+        for name in _references(member, part):
+            if name.startswith("Face"):
+                found.add(int(name[4:]))
+            elif not name.startswith("Solid"):
+                around = part.Shape.ancestorsOfType(part.Shape.getElement(name), type(faces[0]))
+                found.update(number for number, face in enumerate(faces, 1) if any(face.isSame(other) for other in around))
+    return ["Face{}".format(number) for number in sorted(found)]
 
 
 def _found(mesh, part, names):

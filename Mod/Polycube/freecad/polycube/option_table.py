@@ -103,6 +103,8 @@ def write(obj, options):
         elif isinstance(value, dict):
             # divisions and sizes, as on the command line
             value = ",".join("{}={}".format(what if isinstance(what, str) else "Face{}".format(what), value[what]) for what in value)
+        elif option["type"] == "faces" and not isinstance(value, str):
+            value = ",".join("Face{}".format(face) if isinstance(face, int) else face for face in value)
         if _current(obj, option) != value:
             setattr(obj, property_name(option), value)
 

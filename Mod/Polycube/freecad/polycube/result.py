@@ -17,7 +17,10 @@ class MeshResult:
     quad_hex: object  #: (q, 2) int32, cell of each quad and the cell's face, 0 to 5 as Abaqus' S1 to S6
     segments: object  #: (s, 2 or 3) int32, mesh edges on CAD edges, the mid node last
     segment_edge: object  #: (s,) int32, CAD edge of each segment
-    scaled_jacobian: object  #: (m,) float64
+    scaled_jacobian: object  #: (m,) float64: 1 for a cube
+    edge_ratio: object  #: (m,) float64, longest over shortest edge: 1 for a cube
+    skew: object  #: (m,) float64, Verdict's: 0 for right angles, at most 1
+    warpage: object  #: (m,) float64, Verdict's, of the most warped side: 0 for plane sides, at most 2
     groups: dict = field(default_factory=dict)  #: "Face3" -> {"nodes": (k,) int32, "quads": (j,) int32}, likewise Edge, Vertex, Solid
     report: dict = field(default_factory=dict)  #: stages, seconds, counts, quality, worst cells, CAD capture, warnings, options, version
 

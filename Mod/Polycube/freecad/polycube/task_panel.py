@@ -102,7 +102,10 @@ class MeshPanel:
         self.form.log.clear()
         self.obj = self.obj if _exists(self.obj) else None
         self._meshed_options = self._parameters()
-        self._start("mesh", self._meshed_options, "Meshing")
+        options = self._meshed_options
+        if _exists(self.part):
+            options = api.with_constraints(options, self.part, self.analysis if _exists(self.analysis) else None)
+        self._start("mesh", options, "Meshing")
 
     def _start(self, what, options, message):
         """Starts the child process that makes "mesh" or "labels"; _finished takes what it made."""
@@ -356,11 +359,12 @@ class MeshPanel:
         outdated = self.obj.MeshState == objects.OUTDATED
         self.form.summary.setText(
             ("The mesh is out of date: press Apply.\n" if outdated else "")
-            + "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\nOf the CAD model: {}".format(
+            + "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\n{}Of the CAD model: {}".format(
                 self.obj.Hexahedra,
                 self.obj.NodeCount,
                 quality["min_scaled_jacobian"],
                 quality["mean_scaled_jacobian"],
+                _shape_line(quality),
                 ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")),
             )
         )
@@ -407,3 +411,11 @@ class MeshPanel:
             FreeCADGui.Selection.clearSelection()
             for name in entities:
                 FreeCADGui.Selection.addSelection(self.part, name)
+
+
+def _shape_line(quality):
+    """The worst of the other measures; documents of older versions have none."""
+    names = ("edge_ratio", "skew", "warpage")
+    if not all(name in quality for name in names):
+        return ""
+    return "Worst cells: " + ", ".join("{} {:.2f}".format(name.replace("_", " "), quality[name]["max"]) for name in names) + "\n"

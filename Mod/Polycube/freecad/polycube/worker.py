@@ -33,7 +33,10 @@ def flatten(mesh):
     """Arrays of the mesh by name; groups as "group/<name>/<what>"."""
     arrays = {
         key: mesh[key]
-        for key in ("nodes", "hexes", "hex_block", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "scaled_jacobian")
+        for key in (
+            *("nodes", "hexes", "hex_block", "quads", "quad_face", "quad_hex", "segments", "segment_edge"),
+            *("scaled_jacobian", "edge_ratio", "skew", "warpage"),
+        )
     }
     for name, parts in mesh["groups"].items():
         for what, indices in parts.items():

@@ -196,6 +196,7 @@ struct HexCommand {
   }
 
   void run(Monitor& monitor, Monitor::Clock::time_point start) {
+    if (!output.ends_with(".mesh") && !output.ends_with(".vtu")) throw InvalidInput(output + ": the suffix must be .mesh or .vtu");
     for (const std::string* path : {&output, &report, &problem})
       if (!path->empty()) check_writable(*path);
     const PolycuboidInput input = read_polycuboid(tets, labels, map);

@@ -159,7 +159,7 @@ const std::vector<OptionSpec>& option_table() {
        .unit = "",
        .meaning = "Number of hexahedra to come near to, instead of a size.",
        .member = &MeshOptions::hexes,
-       .max = 100'000'000,
+       .max = kMostHexes,
        .zero_is_unset = true},
       {.name = "coarsest",
        .unit = "",
@@ -338,6 +338,13 @@ void check(const MeshOptions& options, double diagonal, int face_count, int edge
   }
   for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, face_count);
   for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, face_count);
+}
+
+void check_count(double hexes) {
+  if (!(hexes > kMostHexes)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "that would make about %.2g hexahedra, more than the %d that are possible", hexes, kMostHexes);
+  throw InvalidInput(text);
 }
 
 const char* label_name(int label) { return kLabelNames.at(label); }

@@ -11,6 +11,9 @@
 
 namespace polycube {
 
+/// A mesh of more hexahedra is not attempted: it takes about 1.4 GB a million.
+inline constexpr int kMostHexes = 10'000'000;
+
 /// (CAD face, label 0..5 = +X -X +Y -Y +Z -Z).
 using FaceLabels = std::vector<std::pair<int, int>>;
 
@@ -78,6 +81,9 @@ const char* label_name(int label);
 
 /// The right-handed orthonormal frame (rows: the axes) of checked, not empty FrameAxes. Y is made exactly square to X.
 Mat3 frame_of(const FrameAxes& axes);
+
+/// Throws InvalidInput where about `hexes` hexahedra would be made and that is more than kMostHexes.
+void check_count(double hexes);
 
 /// Edge length in force, mm: `size`, or diagonal / 30 where it is 0.
 double effective_size(const MeshOptions& options, double diagonal);

@@ -5,6 +5,7 @@
 #include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/options.h"
 
 namespace polycube {
 namespace {
@@ -14,12 +15,15 @@ class Lattice {
  public:
   Lattice(const BlockComplex& complex, const std::vector<int>& value)
       : extent_(complex.blocks.size()), first_(complex.blocks.size() + 1, 0) {
+    double cells = 0;
     for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
       for (int d = 0; d < 3; ++d) {
         const auto [low, high] = complex.blocks[b].charts[d];
         extent_[b][d] = value[high] - value[low];
         if (extent_[b][d] < 0) throw StageFailed("hex", "the integers of the charts are not in the order of the map");
       }
+      cells += 1.0 * std::max(extent_[b][0], 1) * std::max(extent_[b][1], 1) * std::max(extent_[b][2], 1);
+      check_count(cells);
       first_[b + 1] = first_[b] + (extent_[b][0] + 1) * (extent_[b][1] + 1) * (extent_[b][2] + 1);
     }
   }

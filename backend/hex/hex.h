@@ -21,7 +21,8 @@ struct HexComplex {
 /// part of, numbered as build_hexes numbers them.
 std::vector<int> coarse_cells(const BlockComplex& blocks, const std::vector<int>& coarse, const std::vector<int>& value);
 
-/// Throws StageFailed("hex", ...) when the result is not a valid mesh of the solid (integers that do not satisfy C1 and C2).
+/// Throws StageFailed("hex", ...) when the result is not a valid mesh of the solid (integers that do not satisfy C1 and C2), InvalidInput where
+/// it would have more than kMostHexes cells.
 HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization,
                        const Monitor& monitor);
 

@@ -527,6 +527,7 @@ class Run {
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
   check(options, model.diagonal(), model.face_count(), model.edge_count());
+  check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
   const Pose pose = canonical_pose(model, options.frame);
   const MeshOptions posed = pose.posed(options);

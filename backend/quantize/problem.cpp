@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/options.h"
 
 namespace polycube {
 
@@ -27,6 +28,13 @@ QuantizeProblem build_problem(const BlockComplex& complex, const PolycuboidMap& 
   if (!options.block_scale.empty() && options.block_scale.size() != complex.blocks.size()) {
     throw InvalidInput("the block scales are not one per block");
   }
+  double cells = 0;
+  for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
+    double share = complex.blocks[b].volume;
+    for (double factor : options.axis_scale) share *= factor * options.scale * (options.block_scale.empty() ? 1.0 : options.block_scale[b]);
+    cells += share;
+  }
+  check_count(cells);
   QuantizeProblem problem;
   const int chart_count = static_cast<int>(map.charts.size());
   problem.number.assign(chart_count, -1);

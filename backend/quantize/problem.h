@@ -34,7 +34,7 @@ struct QuantizeProblem {
   std::vector<int> number;  ///< per chart: its unknown's number in its axis, -1 without sheet
 };
 
-/// Throws InvalidInput on constraints between charts that have no common axis, and on options out of bounds.
+/// Throws InvalidInput on constraints between charts that have no common axis, on options out of bounds and on far too many cells.
 QuantizeProblem build_problem(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options);
 
 /// Charts that bound a line of blocks on both ends, with the axis; chart numbers as in BlockComplex::unknown. Sorted, distinct.

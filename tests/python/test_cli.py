@@ -65,11 +65,17 @@ class Cli(FolderTest):
         for arguments in (["--size", "0"], ["--size", "-1"], ["--size", "nan"], ["--size", "abc"], ["--size", "100"], ["--size"], ["--order", "3"],
                           ["--nonsense"], ["--hexes", "0"], ["--size", "1", "--hexes", "5"], ["--element-type", "C3D10"], ["--label", "Face99=+X"],
                           ["--label", "Face1=up"], ["--time-limit", "0"], ["--order", "2", "--element-type", "C3D8I"], ["--object", "Box"],
-                          ["--report", self.path("none/r.json")]):
+                          ["--size", "0.001"], ["--size", "1e-300"], ["--divisions", "Edge1=1000000", "--divisions", "Edge2=1000000"],
+                          ["--keep-faces", "Face7"], ["--feature-angle", "181"], ["--report", self.path("none/r.json")]):
             with self.subTest(arguments):
                 self.refuses(part, *arguments)
         self.refuses(part, output="a.stl")
         self.refuses(part, output="none/a.inp")
+
+    def test_hex_writes_medit_and_vtu_only(self):
+        done = subprocess.run([PROGRAM, "hex", "--tets", "a", "--labels", "b", "--map", "c", "-o", self.path("a.inp")], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))
+        self.assertIn("suffix", done.stderr)
 
     def test_bad_parts(self):
         with open(self.path("empty.step"), "w"):

@@ -49,6 +49,13 @@ TEST(Hex, IdentityMapGivesTheGrid) {
   EXPECT_TRUE(check(made.hexes, e.map, made.blocks).good(0));
 }
 
+TEST(Hex, FarTooManyCellsAreRefused) {
+  const Example e = testing::tetrahedralise(testing::box_cells({1, 1, 1}), 1);
+  Made made = make(e, 1);
+  for (int& v : made.quantization.value) v *= 1'000'000;
+  EXPECT_THROW(build_hexes(e.tets, e.map, made.blocks, made.quantization, Monitor()), InvalidInput);
+}
+
 TEST(Hex, QuadsLieOnTheirChartNearTheirTriangle) {
   const Example e = testing::tetrahedralise(testing::box_cells({2, 1, 1}), 2);
   const Made made = make(e, 3);

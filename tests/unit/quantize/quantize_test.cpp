@@ -34,6 +34,16 @@ TEST(Quantize, BoxTakesTheNearestIntegers) {
   EXPECT_NEAR(q.objective, 3 * 0.2 + 2 * 0.2 + 6 * 0.4, 1e-9);
 }
 
+TEST(Quantize, FarTooManyCellsAreRefused) {
+  const Example e = testing::tetrahedralise(testing::box_cells({2, 3, 1}), 1);
+  const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
+  for (const double scale : {120.0, 1e9, 1e200}) {
+    QuantizeOptions options;
+    options.scale = scale;
+    EXPECT_THROW(quantize(blocks, e.map, options, Monitor()), InvalidInput) << scale;
+  }
+}
+
 // Every pair is a choice of its own. Without rewards the tree multiplies them: 181 nodes instead of 37.
 TEST(Quantize, IndependentChoicesAddUp) {
   for (unsigned seed = 0; seed < 3; ++seed) {

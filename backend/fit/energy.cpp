@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/hexahedron.h"
 #include "fit/parallel.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
 constexpr double kShort = 0.15;       // an edge this share of its wanted length is as bad as a cell is good
+constexpr double kWideTurn = std::numbers::pi / 6;  // a mesh edge along which its curve turns by this is as bad as a cell is good
+constexpr double kTurnWeight = 4;                   // cells share a mesh edge
 constexpr int kMemory = 8;            // pairs L-BFGS remembers
 constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
 
@@ -139,7 +142,7 @@ class History {
 }  // namespace
 
 Descent::Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor)
-    : mesh_(mesh), graph_(graph), entities_(entities), threads_(threads), monitor_(monitor), slot_(mesh.hexes.size(), -1) {}
+    : mesh_(mesh), graph_(graph), entities_(entities), threads_(threads), monitor_(monitor), slot_(mesh.hexes.size(), -1), node_slot_(mesh.points.size(), -1) {}
 
 double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& region) const {
   const int count = static_cast<int>(region.hexes.size());
@@ -153,8 +156,8 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& 
   return partial.empty() ? kInfinity : *std::min_element(partial.begin(), partial.end());
 }
 
-double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Vec3>& points,
-                         std::vector<Vec3>& gradient) {
+double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
+                         const std::vector<Vec3>& points, std::vector<Vec3>& gradient) {
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk);
   for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
@@ -195,13 +198,29 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       gradient[i] = entities_.along(v, sum);
     }
   });
+  const int power = std::max(2, energy.power);
+  for (const Turn& turn : turns) {
+    const std::array<int, 2> slots{node_slot_[turn.nodes[0]], node_slot_[turn.nodes[1]]};
+    if (slots[0] < 0 && slots[1] < 0) continue;
+    double angle = turn.angle;
+    for (int k = 0; k < 2; ++k) angle += turn.slopes[k].dot(points[turn.nodes[k]] - turn.places[k]);
+    if (angle <= 0) continue;
+    double slope = kTurnWeight / kWideTurn;
+    for (int k = 1; k < power; ++k) slope *= angle / kWideTurn;
+    total += slope * angle;
+    for (int k = 0; k < 2; ++k) {
+      if (slots[k] >= 0) gradient[slots[k]] += power * slope * turn.slopes[k];
+    }
+  }
   return total;
 }
 
-DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, int max_iterations) {
+DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
+                           int max_iterations) {
   for (std::size_t i = 0; i < region.hexes.size(); ++i) slot_[region.hexes[i]] = static_cast<int>(i);
   corner_gradient_.resize(24 * region.hexes.size());
   const std::size_t count = region.nodes.size();
+  for (std::size_t i = 0; i < count; ++i) node_slot_[region.nodes[i]] = static_cast<int>(i);
   std::vector<double> sizes(count);
   for (std::size_t i = 0; i < count; ++i) {
     const int v = region.nodes[i];
@@ -211,7 +230,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
   }
   std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points;
   DescentResult result;
-  result.start_energy = result.energy = evaluate(energy, targets, region, mesh_.points, gradient);
+  result.start_energy = result.energy = evaluate(energy, targets, region, turns, mesh_.points, gradient);
   History history(sizes, threads_);
   while (result.energy < kInfinity && result.iterations < max_iterations) {
     monitor_.check();
@@ -234,7 +253,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     double step = 1, value = kInfinity;
     for (int attempt = 0; attempt < 14; ++attempt, step /= 2) {
       for (std::size_t i = 0; i < count; ++i) moved[region.nodes[i]] = mesh_.points[region.nodes[i]] + step * direction[i];
-      value = evaluate(energy, targets, region, moved, trial_gradient);
+      value = evaluate(energy, targets, region, turns, moved, trial_gradient);
       if (value <= result.energy + 1e-4 * step * slope) break;
       value = kInfinity;
     }
@@ -258,6 +277,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     if (gain < 1e-6 * value) break;
   }
   for (int h : region.hexes) slot_[h] = -1;
+  for (int v : region.nodes) node_slot_[v] = -1;
   return result;
 }
 

@@ -24,6 +24,7 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 ///     + right * sum over k of (0.15 / |J_k|)^power
 /// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
 /// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
+/// Turns of mesh edges on curved CAD edges add powers of their angle.
 struct Energy {
   double shape = 1;
   double right = 0;
@@ -34,6 +35,15 @@ struct Energy {
 struct Region {
   std::vector<int> hexes;  ///< over which is summed, ascending
   std::vector<int> nodes;  ///< that may move, ascending
+};
+
+/// A mesh edge on a curved CAD edge: the angle by which the curve turns along it, linear in the places of its ends. Long chords of a circle cut
+/// off what lies behind them, and the nodes beside them land on the circle.
+struct Turn {
+  std::array<int, 2> nodes{};
+  std::array<Vec3, 2> places;  ///< where `angle` holds
+  std::array<Vec3, 2> slopes;  ///< of the angle by the places, radians per mm
+  double angle = 0;            ///< radians
 };
 
 struct DescentResult {
@@ -48,20 +58,22 @@ class Descent {
  public:
   Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor);
 
-  DescentResult run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, int max_iterations);
+  DescentResult run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
+                    int max_iterations);
   /// Smallest det J of the region.
   double min_determinant(const std::vector<Vec3>& targets, const Region& region) const;
 
  private:
-  double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Vec3>& points,
-                  std::vector<Vec3>& gradient);
+  double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
+                  const std::vector<Vec3>& points, std::vector<Vec3>& gradient);
 
   HexMesh& mesh_;
   const HexGraph& graph_;
   const Entities& entities_;
   int threads_;
   const Monitor& monitor_;
-  std::vector<int> slot_;  // per hex: its place in the region, -1
+  std::vector<int> slot_;       // per hex: its place in the region, -1
+  std::vector<int> node_slot_;  // per node: its place in the region, -1
   std::vector<double> corner_gradient_;
 };
 

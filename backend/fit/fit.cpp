@@ -173,7 +173,7 @@ class Fitting {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
       const double least = std::min(descent_.min_determinant(targets, region), 0.0);
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
-      const DescentResult result = descent_.run(energy, targets, region, iterations);
+      const DescentResult result = descent_.run(energy, targets, region, chains_.turns(mesh_.points, entities_), iterations);
       entities_.project(mesh_.points);
       chains_.keep_order(mesh_.points, entities_);
       const bool improved = note_if_best();
@@ -194,7 +194,7 @@ class Fitting {
   bool square_up(const Region& region, int power, int iterations, double* gain = nullptr) {
     restore();
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-    const DescentResult result = descent_.run({0.1, 1, power, 0}, targets, region, iterations);
+    const DescentResult result = descent_.run({0.1, 1, power, 0}, targets, region, chains_.turns(mesh_.points, entities_), iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points);
     monitor_.check();

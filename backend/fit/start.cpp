@@ -1,5 +1,6 @@
 #include "fit/start.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -11,19 +12,33 @@ namespace polycube {
 
 namespace {
 
-// Arc length along a CAD edge, from samples.
+// CAD edges that turn by less in all are straight.
+constexpr double kStraight = 0.3;
+
+// Arc length along a CAD edge and the angle its tangent has turned by, from samples.
 class ArcLength {
  public:
   ArcLength(const CadModel& model, int edge) : range_(model.edge_range(edge)) {
     const auto points = model.edge_samples(edge, kSamples);
     lengths_.assign(kSamples, 0);
     for (int i = 1; i < kSamples; ++i) lengths_[i] = lengths_[i - 1] + (points[i] - points[i - 1]).norm();
+    turned_.assign(kSamples, 0);
+    Vec3 before = tangent(model, edge, 0);
+    for (int i = 1; i < kSamples; ++i) {
+      const Vec3 now = tangent(model, edge, i);
+      turned_[i] = turned_[i - 1] + std::atan2(before.cross(now).norm(), before.dot(now));
+      before = now;
+    }
   }
   double total() const { return lengths_.back(); }
-  double length(double t) const {
-    const double x = std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kSamples - 1);
-    const int i = std::min(static_cast<int>(x), kSamples - 2);
-    return lengths_[i] + (x - i) * (lengths_[i + 1] - lengths_[i]);
+  double total_turn() const { return turned_.back(); }
+  double length(double t) const { return at(lengths_, t); }
+  double turned(double t) const { return at(turned_, t); }
+  // Radians per mm.
+  double curvature(double t) const {
+    const int i = std::min(static_cast<int>(place(t)), kSamples - 2);
+    const double length = lengths_[i + 1] - lengths_[i];
+    return length > 0 ? (turned_[i + 1] - turned_[i]) / length : 0;
   }
   double parameter(double length) const {
     const auto it = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, length);
@@ -35,8 +50,17 @@ class ArcLength {
 
  private:
   static constexpr int kSamples = 257;
+  Vec3 tangent(const CadModel& model, int edge, int i) const {
+    return model.edge_tangent(edge, range_[0] + i * (range_[1] - range_[0]) / (kSamples - 1));
+  }
+  double place(double t) const { return std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kSamples - 1); }
+  double at(const std::vector<double>& values, double t) const {
+    const double x = place(t);
+    const int i = std::min(static_cast<int>(x), kSamples - 2);
+    return values[i] + (x - i) * (values[i + 1] - values[i]);
+  }
   std::array<double, 2> range_;
-  std::vector<double> lengths_;
+  std::vector<double> lengths_, turned_;
 };
 
 struct NodeChain {
@@ -210,6 +234,50 @@ void Chains::place(std::vector<Vec3>& points, Entities& entities) const {
   for (const auto& chain : chains_) place_chain(model_, chain->nodes, chain->arc, points, entities);
 }
 
+// The direction of a chain that has one vertex or none is that in which most of its pairs go.
+bool Chains::forward(const Chain& chain, const std::vector<double>& lengths, const Entities& entities) const {
+  const CadEdge& cad = model_.edge(chain.nodes.edge);
+  const CadRef first = entities.cad(chain.nodes.nodes.front());
+  if (cad.vertices[0] != cad.vertices[1]) return cad.vertices[0] == first.id;
+  int rising = 0;
+  for (std::size_t i = 1; i + 2 < lengths.size(); ++i) rising += lengths[i + 1] > lengths[i] ? 1 : -1;
+  return rising >= 0;
+}
+
+std::vector<Turn> Chains::turns(const std::vector<Vec3>& points, const Entities& entities) const {
+  std::vector<Turn> turns;
+  for (const auto& chain : chains_) {
+    const auto& nodes = chain->nodes.nodes;
+    const ArcLength& arc = chain->arc;
+    const bool cut = entities.dimension(nodes.front()) != 0 && nodes.front() != nodes.back();
+    if (arc.total_turn() < kStraight || cut || nodes.size() < 3) continue;
+    const auto [from, to] = model_.edge_range(chain->nodes.edge);
+    std::vector<double> t, lengths;
+    for (int v : nodes) t.push_back(entities.dimension(v) == 1 ? entities.edge_parameter(v) : from);
+    for (double x : t) lengths.push_back(arc.length(x));
+    const bool ahead = forward(*chain, lengths, entities);
+    const bool loop = entities.dimension(nodes.front()) != 0;
+    if (!loop) {
+      t.front() = ahead ? from : to;
+      t.back() = ahead ? to : from;
+    }
+    const double sign = ahead ? 1 : -1;
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      Turn turn;
+      turn.angle = sign * (arc.turned(t[i + 1]) - arc.turned(t[i]));
+      if (loop && turn.angle < 0) turn.angle += arc.total_turn();
+      for (int k = 0; k < 2; ++k) {
+        const int v = nodes[i + k];
+        turn.nodes[k] = v;
+        turn.places[k] = points[v];
+        turn.slopes[k] = (k == 0 ? -sign : sign) * arc.curvature(t[i + k]) * model_.edge_tangent(chain->nodes.edge, t[i + k]);
+      }
+      turns.push_back(turn);
+    }
+  }
+  return turns;
+}
+
 void Chains::keep_order(std::vector<Vec3>& points, Entities& entities) const {
   for (const auto& chain : chains_) {
     const auto& [edge, nodes] = chain->nodes;
@@ -218,15 +286,8 @@ void Chains::keep_order(std::vector<Vec3>& points, Entities& entities) const {
     const double total = chain->arc.total(), least = 0.1 * total / (count - 1);
     std::vector<double> s(count, 0);
     for (int i = 1; i + 1 < count; ++i) s[i] = chain->arc.length(entities.edge_parameter(nodes[i]));
-    // The direction of the chain is that in which most of its pairs go.
-    const CadEdge& cad = model_.edge(edge);
-    bool forward = cad.vertices[0] == entities.cad(nodes.front()).id;
-    if (cad.vertices[0] == cad.vertices[1]) {
-      int rising = 0;
-      for (int i = 1; i + 2 < count; ++i) rising += s[i + 1] > s[i] ? 1 : -1;
-      forward = rising >= 0;
-    }
-    if (!forward) {
+    const bool ahead = forward(*chain, s, entities);
+    if (!ahead) {
       for (double& x : s) x = total - x;
     }
     s.front() = 0;
@@ -236,7 +297,7 @@ void Chains::keep_order(std::vector<Vec3>& points, Entities& entities) const {
     for (int i = count - 2; i > 0; --i) s[i] = std::min(s[i], s[i + 1] - least);
     for (int i = 1; i + 1 < count; ++i) {
       if (s[i] == before[i]) continue;
-      const double t = chain->arc.parameter(forward ? s[i] : total - s[i]);
+      const double t = chain->arc.parameter(ahead ? s[i] : total - s[i]);
       entities.set_edge_parameter(nodes[i], t);
       points[nodes[i]] = entities.project(nodes[i], model_.edge_point(edge, t));
     }

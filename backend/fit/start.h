@@ -17,9 +17,12 @@ class Chains {
   void place(std::vector<Vec3>& points, Entities& entities) const;
   /// Moves nodes along their curve where they have left the order or come closer than a tenth of even spacing.
   void keep_order(std::vector<Vec3>& points, Entities& entities) const;
+  /// The mesh edges on curved CAD edges, for nodes that stand where `entities` projected them.
+  std::vector<Turn> turns(const std::vector<Vec3>& points, const Entities& entities) const;
 
  private:
   struct Chain;
+  bool forward(const Chain& chain, const std::vector<double>& lengths, const Entities& entities) const;
   const CadModel& model_;
   std::vector<std::shared_ptr<const Chain>> chains_;
 };

@@ -17,6 +17,7 @@ constexpr int kChunk = 512;
 constexpr double kShort = 0.15;       // an edge this share of its wanted length is as bad as a cell is good
 constexpr double kWideTurn = std::numbers::pi / 6;  // a mesh edge along which its curve turns by this is as bad as a cell is good
 constexpr double kTurnWeight = 4;                   // cells share a mesh edge
+constexpr int kFloorPower = 16;
 constexpr int kMemory = 8;            // pairs L-BFGS remembers
 constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
 
@@ -63,13 +64,19 @@ double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::ar
     double raised = energy.right;
     for (int k = 0; k < energy.power; ++k) raised *= inverse;
     value += raised;
-    by_det -= energy.power * raised / chi * slope;
+    double steep = energy.power * raised;
+    if (energy.floor > 0) {
+      const double near = std::pow(energy.floor * inverse, kFloorPower) * energy.right / (energy.floor * energy.floor);
+      value += near;
+      steep += kFloorPower * near;
+    }
+    by_det -= steep / chi * slope;
     for (int k = 0; k < 3; ++k) {
       const double length = std::max(squared[k], 1e-300);
       double shortness = energy.right;
       for (int i = 0; i < energy.power; ++i) shortness *= kShort / std::sqrt(length);
       value += shortness;
-      by_edge[k] += energy.power * (raised - shortness) / length;
+      by_edge[k] += (steep - energy.power * shortness) / length;
     }
   }
   for (int k = 0; k < 3; ++k) gradient[k] = by_edge[k] * j[k] + by_det * cofactor[k];

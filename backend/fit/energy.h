@@ -24,12 +24,14 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 ///     + right * sum over k of (0.15 / |J_k|)^power
 /// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
 /// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
+/// With a floor, a corner adds right / floor^2 * (floor / scaled Jacobian)^16: no cell near the floor gets worse for the sake of the others.
 /// Turns of mesh edges on curved CAD edges add powers of their angle.
 struct Energy {
   double shape = 1;
   double right = 0;
   int power = 1;
-  double eps = 0;  ///< 0: a barrier, infinite where D <= 0
+  double floor = 0;  ///< a scaled Jacobian, 0: none
+  double eps = 0;    ///< 0: a barrier, infinite where D <= 0
 };
 
 struct Region {

@@ -68,7 +68,11 @@ class Fitting {
     if (score_.inverted == 0) {
       square_up();
       monitor_.progress("fit", 0.8);
-      raise_worst();
+      if (score_.worst < goal()) {
+        raise_worst();
+        monitor_.progress("fit", 0.9);
+        polish();
+      }
     }
     restore();
     return report();
@@ -92,7 +96,7 @@ class Fitting {
   // Notes the mesh if it is the best so far.
   bool note_if_best() {
     const Score now = rate();
-    if (!now.better_than(score_, goal())) return false;
+    if (!now.better_than(score_, std::min(goal(), held_))) return false;
     score_ = now;
     best_ = mesh_.points;
     return true;
@@ -191,10 +195,10 @@ class Fitting {
   }
 
   // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one.
-  bool square_up(const Region& region, int power, int iterations, double* gain = nullptr) {
+  bool square_up(const Region& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
     restore();
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-    const DescentResult result = descent_.run({0.1, 1, power, 0}, targets, region, chains_.turns(mesh_.points, entities_), iterations);
+    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, region, chains_.turns(mesh_.points, entities_), iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points);
     monitor_.check();
@@ -217,6 +221,17 @@ class Fitting {
       const double before = score_.worst;
       square_up(around(std::min(goal(), before + 0.15), 2 + failures), 4 << std::min(failures, 2), 30);
       failures = score_.worst > before + 0.005 ? 0 : failures + 1;
+    }
+  }
+
+  // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are.
+  void polish() {
+    constexpr double kHeld = 0.98;
+    held_ = kHeld * score_.worst;
+    const double floor = 1.2 * score_.worst;
+    double gain = 1;
+    for (int round = 0; round < 5 && gain > 1e-3; ++round) {
+      if (!square_up(whole_, 2, 40, &gain, floor)) break;
     }
   }
 
@@ -261,6 +276,7 @@ class Fitting {
   Region whole_;
   std::vector<Vec3> best_;
   Score score_;
+  double held_ = std::numeric_limits<double>::infinity();  // while polishing: a worst cell above this is no gain
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ TEST(Descent, EdgesDoNotCollapseForTheSakeOfTheScaledJacobian) {
     if (entities.dimension(v) != 0) whole.nodes.push_back(v);
   }
   const Monitor monitor;
-  Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 4, 0}, targets, whole, 60);
+  Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 4, 0}, targets, whole, {}, 60);
   for (const Hex& h : grid.mesh.hexes) EXPECT_GT((grid.mesh.points[h[0]] - grid.mesh.points[h[1]]).norm(), 0.03);
 }
 

@@ -13,6 +13,9 @@ constexpr int kOuter = 12;           // epsilon updates
 constexpr int kInner = 25;           // L-BFGS steps between them
 constexpr int kPatience = 6;         // updates without fewer flips before it ends
 constexpr int kRunaway = 60;         // times the flips at the start: it has run away
+// Largest epsilon. A tet without size costs 2 lambda / epsilon, a good one 3 + 2 lambda: at 0.25 shrinking the part to a point pays.
+constexpr double kWidest = 0.1;
+constexpr double kFall = 0.6;        // of epsilon from one update to the next, at least
 constexpr std::size_t kMemory = 6;
 
 class Problem {
@@ -160,7 +163,7 @@ int descend(const Problem& problem, Vector& x, double epsilon, int steps, const 
     x = std::move(next);
     g = std::move(next_g);
     e = next_e;
-    if (gain < 1e-4) return step + 1;
+    if (gain < 1e-5) return step + 1;
   }
   return steps;
 }
@@ -174,6 +177,7 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
   FoldoverReport report;
   report.collapsed = problem.collapsed();
   int start = -1, idle = 0;
+  double epsilon = kWidest / kFall;
   Vector best = x;
   for (int outer = 0;; ++outer) {
     const auto [least, flipped] = problem.worst(x);
@@ -186,9 +190,10 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
     }
     // Charts that no map can realise make the optimisation run away.
     if (report.flipped == 0 || outer == kOuter || idle > kPatience || flipped > kRunaway * (start + 10)) break;
-    // Above about a half the smoothing would make shrinking the good tets pay.
-    const double epsilon = least > 0 ? 1e-3 : std::min(std::sqrt(1e-6 + 0.04 * least * least), 0.4);
-    report.iterations += descend(problem, x, epsilon, kInner, monitor);
+    epsilon = least > 0 ? 1e-3 : std::min({std::sqrt(1e-6 + 0.25 * least * least), kWidest, kFall * epsilon});
+    const int steps = descend(problem, x, epsilon, kInner, monitor);
+    if (steps == 0) break;
+    report.iterations += steps;
   }
   x = std::move(best);
   image = problem.scatter(x);

@@ -17,6 +17,6 @@ struct FoldoverReport {
 /// Moves `image` (one value per unknown of each coordinate) to lower sum of volume * (tr(J^T J) / chi(det J)^(2/3) + lambda (det^2 + 1) / chi(det J)),
 /// by L-BFGS preconditioned with the coordinates' systems; chi's epsilon follows the worst determinant.
 FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>& elements, const std::array<std::unique_ptr<Coordinate>, 3>& system,
-                                std::vector<Vec3>& image, const Monitor& monitor);
+                                std::vector<Vec3>& image, int threads, const Monitor& monitor);
 
 }  // namespace polycube

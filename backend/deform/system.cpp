@@ -41,14 +41,13 @@ Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements
   }
   Eigen::SparseMatrix<double> matrix(count_ - 1, count_ - 1);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  solver_.compute(matrix);
-  ok_ = solver_.info() == Eigen::Success;
+  ok_ = solver_.factorise(matrix);
 }
 
-Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Vec3>& target) const {
+Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row) const {
   Vector rhs = Vector::Zero(count_);
   for (std::size_t t = 0; t < elements.size(); ++t) {
-    const Eigen::Vector4d b = elements[t].volume * elements[t].gradient.transpose() * target[t];
+    const Eigen::Vector4d b = elements[t].volume * elements[t].gradient.transpose() * target[t].row(row).transpose();
     for (int a = 0; a < 4; ++a) rhs[unknown_[mesh.tets[t][a]]] += b[a];
   }
   const Vector x = precondition(rhs);

@@ -1,10 +1,9 @@
 // The linear systems of the map: one per coordinate, nodes of a chart sharing one unknown.
 #pragma once
 
-#include <Eigen/SparseCholesky>
-
 #include "core/mesh.h"
 #include "core/union_find.h"
+#include "deform/cholesky.h"
 
 namespace polycube {
 
@@ -29,8 +28,8 @@ class Coordinate {
   bool ok() const { return ok_; }
   int unknowns() const { return count_; }
   int unknown(int node) const { return unknown_[node]; }
-  /// `target`: per tet the wished gradient of this coordinate. Returns one value per node.
-  Vector solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Vec3>& target) const;
+  /// `target`: per tet the wished gradient of the map, whose `row` is this coordinate's. Returns one value per node.
+  Vector solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row) const;
   /// Inverse of the system times a right side with one entry per unknown (entry 0 is ignored and comes back 0).
   Vector precondition(const Vector& rhs) const;
 
@@ -38,7 +37,7 @@ class Coordinate {
   std::vector<int> unknown_;
   int count_ = 0;
   bool ok_ = false;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+  Cholesky solver_;
 };
 
 }  // namespace polycube

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/hexahedron.h"
-#include "fit/parallel.h"
+#include "core/parallel.h"
 
 namespace polycube {
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "fit/parallel.h"
+#include "core/parallel.h"
 
 namespace polycube {
 

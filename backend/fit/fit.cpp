@@ -7,9 +7,9 @@
 
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/parallel.h"
 #include "core/quality.h"
 #include "fit/energy.h"
-#include "fit/parallel.h"
 #include "fit/start.h"
 
 namespace polycube {

@@ -372,7 +372,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   edge /= static_cast<double>(mesh.triangles.size());
   // Violations become dearer step by step: what a change of little cost mends is mended by it.
   for (double strictness = std::min(kFirstStrictness, options.strictness);; strictness *= 2) {
-    region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), monitor);
+    region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
   }
 

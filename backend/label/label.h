@@ -17,6 +17,7 @@ struct LabelOptions {
   std::vector<std::pair<int, int>> face_labels;     ///< (CAD face, label 0..5) given by the user
   bool frame_given = false;
   Mat3 frame = Mat3::Identity();                    ///< rows: the axes, right-handed
+  int threads = 2;                                  ///< the result does not depend on it
 };
 
 struct Labelling {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/parallel.h"
 #include "label/graph_cut.h"
 
 namespace polycube {
@@ -80,33 +81,43 @@ std::vector<Move> moves_near(const RegionGraph& g, const Violations& violations,
 }  // namespace
 
 std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, double weight,
-                        const Monitor& monitor) {
+                        int threads, const Monitor& monitor) {
   const auto near = adjacency(graph);
-  const auto cost = [&](const std::vector<int>& l, Violations* v) {
-    Violations found = find_violations(graph, points, l, noise);
-    const double c = weight * found.score + region_energy(graph, l);
-    if (v) *v = std::move(found);
-    return c;
-  };
-  Violations violations;
-  double current = cost(label, &violations);
+  const ViolationFinder finder(graph, points, noise);
+  Violations violations = finder.find(label);
+  double current = weight * violations.score + region_energy(graph, label);
   for (int step = 0; step < kMaxMoves && violations.score > 0; ++step) {
     monitor.check();
-    const Move* best = nullptr;
-    double best_cost = current * (1 - 1e-12) - 1e-9;
     const std::vector<Move> moves = moves_near(graph, violations, near, label);
-    for (const Move& m : moves) {
-      if (std::any_of(m.regions.begin(), m.regions.end(), [&](int r) { return graph.regions[r].data[m.label] >= kForbidden; })) continue;
+    const double enough = current * (1 - 1e-12) - 1e-9;
+    // A move's energy bounds its cost from below: each thread leaves out what cannot be its best.
+    struct Best {
+      double cost;
+      int move = -1;
+    };
+    threads = std::max(threads, 1);
+    std::vector<Best> found(static_cast<std::size_t>(threads), {enough});
+    for_chunks(threads, 1, threads, [&](int thread, int, int) {
+      Best& best = found[thread];
       std::vector<int> next = label;
-      for (int r : m.regions) next[r] = m.label;
-      const double c = cost(next, nullptr);
-      if (c >= best_cost) continue;
-      best_cost = c;
-      best = &m;
-    }
-    if (!best) break;
-    for (int r : best->regions) label[r] = best->label;
-    current = cost(label, &violations);
+      for (int i = thread; i < static_cast<int>(moves.size()); i += threads) {
+        const Move& m = moves[i];
+        if (std::any_of(m.regions.begin(), m.regions.end(), [&](int r) { return graph.regions[r].data[m.label] >= kForbidden; })) continue;
+        for (int r : m.regions) next[r] = m.label;
+        const double energy = region_energy(graph, next);
+        if (energy < best.cost) {
+          const double cost = weight * finder.score(next) + energy;
+          if (cost < best.cost) best = {cost, i};
+        }
+        for (int r : m.regions) next[r] = label[r];
+      }
+    });
+    // The first of equals, whichever thread found it.
+    const Best best = *std::min_element(found.begin(), found.end(), [](const Best& a, const Best& b) { return std::pair(a.cost, a.move) < std::pair(b.cost, b.move); });
+    if (best.move < 0) break;
+    for (int r : moves[best.move].regions) label[r] = moves[best.move].label;
+    violations = finder.find(label);
+    current = weight * violations.score + region_energy(graph, label);
   }
   return label;
 }

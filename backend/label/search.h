@@ -11,6 +11,6 @@ namespace polycube {
 /// Never returns a labelling with a higher score than it was given. Deterministic; ends when no move helps.
 /// `weight`: what one point of Violations::score is worth in energy.
 std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise, double weight,
-                        const Monitor& monitor);
+                        int threads, const Monitor& monitor);
 
 }  // namespace polycube

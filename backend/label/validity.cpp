@@ -3,10 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
 #include <set>
 
 #include "core/charts.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -77,15 +78,48 @@ std::set<std::vector<int>> polycube_corners() {
   return result;
 }
 
-bool is_polycube_corner(const std::vector<int>& labels) {
-  static const std::set<std::vector<int>> kCorners = polycube_corners();
-  return kCorners.count(canonical(labels)) > 0;
+// Base 7, so that short sequences fit in one number.
+std::int64_t code_of(const std::vector<int>& s) {
+  std::int64_t code = 0;
+  for (int l : s) code = 7 * code + l + 1;
+  return code;
 }
 
-class Checker {
+bool is_polycube_corner(const std::vector<int>& labels) {
+  // All spellings of every corner, ascending.
+  static const std::vector<std::int64_t> kCodes = [] {
+    std::vector<std::int64_t> codes;
+    for (std::vector<int> corner : polycube_corners()) {
+      for (std::size_t i = 0; i < corner.size(); ++i) {
+        codes.push_back(code_of(corner));
+        std::rotate(corner.begin(), corner.begin() + 1, corner.end());
+      }
+    }
+    std::sort(codes.begin(), codes.end());
+    return codes;
+  }();
+  constexpr std::size_t kLongest = 12;  // no corner has as many
+  return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
+}
+
+// The values of a function along a chain at its ends and where it turns back; what lies between them reverses nothing.
+std::vector<double> course(const std::vector<Vec3>& points, const std::vector<int>& nodes, int axis) {
+  std::vector<double> result{points[nodes.front()][axis]};
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    const double x = points[nodes[i]][axis];
+    const std::size_t n = result.size();
+    if (n > 1 && (result[n - 1] - result[n - 2]) * (x - result[n - 1]) >= 0) result.pop_back();
+    result.push_back(x);
+  }
+  return result;
+}
+
+}  // namespace
+
+/// The check of one labelling.
+class ViolationFinder::Check {
  public:
-  Checker(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& label, double noise)
-      : g_(graph), points_(points), label_(label), noise_(noise) {}
+  Check(const ViolationFinder& finder, const std::vector<int>& label) : f_(finder), g_(finder.graph_), label_(label), hit_(finder.graph_.regions.size(), 0) {}
 
   Violations run() {
     check_arcs();
@@ -93,20 +127,22 @@ class Checker {
     find_charts();
     check_loops();
     check_turns();
-    for (const auto& r : hit_) result_.regions.push_back(r);
+    for (std::size_t r = 0; r < hit_.size(); ++r) {
+      if (hit_[r]) result_.regions.push_back(static_cast<int>(r));
+    }
     result_.score = 10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points +
                     6.0 * result_.bad_turns;
     return std::move(result_);
   }
 
  private:
-  bool border(int dart) const { return label_[dart_left(g_, dart)] != label_[dart_right(g_, dart)]; }
+  bool border(int dart) const { return label_[g_.arcs[dart / 2].left] != label_[g_.arcs[dart / 2].right]; }
   int start_of(int dart) const { return dart % 2 == 0 ? g_.arcs[dart / 2].start : g_.arcs[dart / 2].end; }
   int end_of(int dart) const { return start_of(dart ^ 1); }
 
   void blame(int dart) {
-    hit_.insert(dart_left(g_, dart));
-    hit_.insert(dart_right(g_, dart));
+    hit_[g_.arcs[dart / 2].left] = 1;
+    hit_[g_.arcs[dart / 2].right] = 1;
   }
 
   void check_arcs() {
@@ -120,8 +156,9 @@ class Checker {
 
   void check_junctions() {
     corner_.assign(g_.junctions.size(), 0);
+    std::vector<int> around;
     for (std::size_t j = 0; j < g_.junctions.size(); ++j) {
-      std::vector<int> around;
+      around.clear();
       for (int d : g_.junctions[j].darts) {
         if (border(d)) around.push_back(label_[dart_left(g_, d)]);
       }
@@ -135,16 +172,12 @@ class Checker {
   }
 
   void find_charts() {
-    chart_.resize(g_.regions.size());
-    std::iota(chart_.begin(), chart_.end(), 0);
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (const Arc& a : g_.arcs) {
-        if (label_[a.left] != label_[a.right] || chart_[a.left] == chart_[a.right]) continue;
-        chart_[a.left] = chart_[a.right] = std::min(chart_[a.left], chart_[a.right]);
-        changed = true;
-      }
+    UnionFind charts(g_.regions.size());
+    for (const Arc& a : g_.arcs) {
+      if (label_[a.left] == label_[a.right]) charts.unite(a.left, a.right);
     }
+    chart_.resize(g_.regions.size());
+    for (std::size_t r = 0; r < chart_.size(); ++r) chart_[r] = charts.find(static_cast<int>(r));
     turns_.assign(g_.regions.size(), 0);
     loops_.assign(g_.regions.size(), 0);
     unknown_.assign(g_.regions.size(), 0);
@@ -153,21 +186,22 @@ class Checker {
   // A rectilinear polygon turns left four times more than right, a hole's border right; so turns tell of a chart that is inside out, and of one
   // without any border.
   void check_turns() {
+    std::vector<char> bad(g_.regions.size(), 0);
     for (std::size_t r = 0; r < g_.regions.size(); ++r) {
       if (chart_[r] != static_cast<int>(r) || unknown_[r] || (loops_[r] > 0 && turns_[r] == 4 * (2 - loops_[r]))) continue;
       ++result_.bad_turns;
-      if (loops_[r] == 0 && !unknown_[r]) result_.poor_loops += 6;  // the whole surface is one chart: it lacks the borders of a cube's six
-      for (std::size_t m = 0; m < g_.regions.size(); ++m) {
-        if (chart_[m] == static_cast<int>(r)) hit_.insert(static_cast<int>(m));
-      }
+      if (loops_[r] == 0) result_.poor_loops += 6;  // the whole surface is one chart: it lacks the borders of a cube's six
+      bad[r] = 1;
+    }
+    for (std::size_t r = 0; r < g_.regions.size(); ++r) {
+      if (bad[chart_[r]]) hit_[r] = 1;
     }
   }
 
   // The border dart that follows with the same chart on the left.
   int next(int dart) const {
     const auto& darts = g_.junctions[end_of(dart)].darts;
-    const auto back = std::find(darts.begin(), darts.end(), dart ^ 1);
-    std::size_t i = static_cast<std::size_t>(back - darts.begin());
+    auto i = static_cast<std::size_t>(f_.place_[dart ^ 1]);
     // Turning clockwise from the way back sweeps over the left side.
     do {
       i = (i + darts.size() - 1) % darts.size();
@@ -175,17 +209,9 @@ class Checker {
     return darts[i];
   }
 
-  void append(int dart, std::vector<int>& nodes) const {
-    const auto& chain = g_.arcs[dart / 2].nodes;
-    if (dart % 2 == 0) {
-      nodes.insert(nodes.end(), chain.begin() + (nodes.empty() ? 0 : 1), chain.end());
-    } else {
-      nodes.insert(nodes.end(), chain.rbegin() + (nodes.empty() ? 0 : 1), chain.rend());
-    }
-  }
-
   void check_loops() {
     std::vector<char> seen(2 * g_.arcs.size(), 0);
+    std::vector<int> loop;
     for (int first = 0; first < static_cast<int>(2 * g_.arcs.size()); ++first) {
       if (seen[first] || !border(first)) continue;
       if (start_of(first) < 0) {  // a closed chain without junction
@@ -195,7 +221,7 @@ class Checker {
         blame(first);
         continue;
       }
-      std::vector<int> loop;
+      loop.clear();
       for (int d = first; !seen[d]; d = next(d)) {
         seen[d] = 1;
         loop.push_back(d);
@@ -205,87 +231,110 @@ class Checker {
   }
 
   void check_loop(std::vector<int>& loop) {
-    std::vector<std::size_t> corners;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      if (corner_[start_of(loop[i])]) corners.push_back(i);
+    std::size_t corners = 0, first_corner = 0;
+    for (std::size_t i = loop.size(); i-- > 0;) {
+      if (!corner_[start_of(loop[i])]) continue;
+      ++corners;
+      first_corner = i;
     }
-    if (corners.size() < 4) {
-      result_.poor_loops += 4 - static_cast<int>(corners.size());
+    const int chart = chart_[dart_left(g_, loop.front())];
+    if (corners < 4) {
+      result_.poor_loops += 4 - static_cast<int>(corners);
       for (int d : loop) blame(d);
-      if (corners.empty()) {
-        unknown_[chart_[dart_left(g_, loop.front())]] = 1;
+      if (corners == 0) {
+        unknown_[chart] = 1;
         return;
       }
     }
     // The boundaries between consecutive corners, as axis directions of the polygon that the chart becomes.
-    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(corners.front()), loop.end());
-    std::vector<Vec3> directions;
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first_corner), loop.end());
+    directions_.clear();
     bool known = true;
     const int mine = label_[dart_left(g_, loop.front())];
     for (std::size_t i = 0; i < loop.size();) {
-      const int other = label_[dart_right(g_, loop[i])];
-      std::vector<int> nodes;
-      const int first = loop[i];
+      const std::size_t start = i;
       do {
-        append(loop[i], nodes);
         ++i;
       } while (i < loop.size() && !corner_[start_of(loop[i])]);
+      const int other = label_[dart_right(g_, loop[start])];
       if (label_axis(mine) == label_axis(other)) {
         known = false;
         continue;
       }
       const int axis = 3 - label_axis(mine) - label_axis(other);
-      const double way = points_[nodes.back()][axis] - points_[nodes.front()][axis];
-      if (mine < other) count_reversals(nodes, axis, first);
-      if (std::abs(way) < noise_ * 0.25) known = false;
+      const double way = value_at(loop[i - 1] ^ 1, axis) - value_at(loop[start], axis);
+      // Each boundary is seen from both sides.
+      if (mine < other) count_reversals(loop, start, i, axis, way >= 0 ? 1 : -1);
+      if (std::abs(way) < f_.noise_ * 0.25) known = false;
       Vec3 d = Vec3::Zero();
       d[axis] = way < 0 ? -1 : 1;
-      directions.push_back(d);
+      directions_.push_back(d);
     }
-    const int chart = chart_[dart_left(g_, loop.front())];
     ++loops_[chart];
-    if (!known || directions.size() < 4) {
+    if (!known || directions_.size() < 4) {
       unknown_[chart] = 1;
       return;
     }
-    for (std::size_t i = 0; i < directions.size(); ++i) {
-      turns_[chart] += static_cast<int>(std::lround(directions[i].cross(directions[(i + 1) % directions.size()]).dot(label_vector(mine))));
+    for (std::size_t i = 0; i < directions_.size(); ++i) {
+      turns_[chart] += static_cast<int>(std::lround(directions_[i].cross(directions_[(i + 1) % directions_.size()]).dot(label_vector(mine))));
     }
   }
 
-  // Each boundary is seen from both sides; the caller counts it from one.
-  void count_reversals(const std::vector<int>& nodes, int axis, int dart) {
-    const double sign = points_[nodes.back()][axis] >= points_[nodes.front()][axis] ? 1 : -1;
-    double extreme = sign * points_[nodes.front()][axis];
+  double value_at(int dart, int axis) const {
+    const auto& course = f_.course_[dart / 2][axis];
+    return dart % 2 == 0 ? course.front() : course.back();
+  }
+
+  // Along the darts [first, last) of a loop.
+  void count_reversals(const std::vector<int>& loop, std::size_t first, std::size_t last, int axis, double sign) {
+    double extreme = sign * value_at(loop[first], axis);
     bool back = false;
-    for (int n : nodes) {
-      const double x = sign * points_[n][axis];
+    const auto pass = [&](double value) {
+      const double x = sign * value;
       if (x > extreme) {
         extreme = x;
         back = false;
-      } else if (!back && extreme - x > noise_) {
+      } else if (!back && extreme - x > f_.noise_) {
         ++result_.turning_points;
-        blame(dart);
+        blame(loop[first]);
         back = true;
+      }
+    };
+    for (std::size_t i = first; i < last; ++i) {
+      const auto& course = f_.course_[loop[i] / 2][axis];
+      if (loop[i] % 2 == 0) {
+        std::for_each(course.begin(), course.end(), pass);
+      } else {
+        std::for_each(course.rbegin(), course.rend(), pass);
       }
     }
   }
 
+  const ViolationFinder& f_;
   const RegionGraph& g_;
-  const std::vector<Vec3>& points_;
   const std::vector<int>& label_;
-  double noise_;
   std::vector<char> corner_;
   std::vector<int> chart_;                   // per region: the least region of its chart
   std::vector<int> turns_, loops_, unknown_; // per chart
-  std::set<int> hit_;
+  std::vector<Vec3> directions_;
+  std::vector<char> hit_;                    // per region
   Violations result_;
 };
 
-}  // namespace
+ViolationFinder::ViolationFinder(const RegionGraph& graph, const std::vector<Vec3>& points, double noise)
+    : graph_(graph), noise_(noise), place_(2 * graph.arcs.size(), -1) {
+  for (const Arc& a : graph.arcs) course_.push_back({course(points, a.nodes, 0), course(points, a.nodes, 1), course(points, a.nodes, 2)});
+  for (const Junction& j : graph.junctions) {
+    for (std::size_t i = 0; i < j.darts.size(); ++i) place_[j.darts[i]] = static_cast<int>(i);
+  }
+}
+
+Violations ViolationFinder::find(const std::vector<int>& region_label) const { return Check(*this, region_label).run(); }
+
+double ViolationFinder::score(const std::vector<int>& region_label) const { return Check(*this, region_label).run().score; }
 
 Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise) {
-  return Checker(graph, points, region_label, noise).run();
+  return ViolationFinder(graph, points, noise).find(region_label);
 }
 
 }  // namespace polycube

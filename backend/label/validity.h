@@ -18,7 +18,25 @@ struct Violations {
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };
 
-/// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count.
+/// For many labellings of one graph: what does not depend on the labels is worked out once. Safe to use from several threads.
+class ViolationFinder {
+ public:
+  /// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count. Holds a reference to `graph`.
+  ViolationFinder(const RegionGraph& graph, const std::vector<Vec3>& points, double noise);
+
+  Violations find(const std::vector<int>& region_label) const;
+  /// Violations::score alone.
+  double score(const std::vector<int>& region_label) const;
+
+ private:
+  class Check;
+  const RegionGraph& graph_;
+  double noise_;
+  std::vector<std::array<std::vector<double>, 3>> course_;  // per arc and axis: coordinates at both ends and where the arc turns back between
+  std::vector<int> place_;                                  // per dart: index among those of the junction where it starts
+};
+
+/// The same for one labelling.
 Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise);
 
 }  // namespace polycube

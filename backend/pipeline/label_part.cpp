@@ -38,6 +38,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   label_options.face_labels = options.labels;
   label_options.frame_given = true;
   label_options.frame = pose.frame;
+  if (options.threads > 0) label_options.threads = options.threads;
   part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
   absorb_strays(part.tets, part.labelling, monitor);
   part.features = find_features(pose.model, part.tets, part.labelling,
@@ -46,6 +47,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   if (until == Until::kMap) {
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size;
+    if (options.threads > 0) deform_options.threads = options.threads;
     try {
       RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
       part.map = std::move(realised.map);

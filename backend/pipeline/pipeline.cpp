@@ -252,6 +252,7 @@ class Run {
     label_options.face_labels = options_.labels;
     label_options.frame_given = true;
     label_options.frame = pose_.frame;
+    if (options_.threads > 0) label_options.threads = options_.threads;
     LabelReport labels;
     const Labelling labelling = stage("label", [&] {
       Labelling found = label(model_, s.tets, label_options, monitor_, &labels);
@@ -269,6 +270,7 @@ class Run {
 
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size_;
+    if (options_.threads > 0) deform_options.threads = options_.threads;
     RealisedMap realised = stage("deform", [&] { return realise(model_, s.tets, labelling, s.features, deform_options, monitor_); });
     s.map = std::move(realised.map);
     monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +

@@ -20,6 +20,7 @@ constexpr double kSizesPerDiagonal = 30;
 constexpr double kSquare = 0.1;
 
 std::string flag(const std::string& name) {
+  if (name == "labels") return "--label";  // given once for every face
   std::string text = "--" + name;
   std::replace(text.begin(), text.end(), '_', '-');
   return text;
@@ -325,7 +326,7 @@ void check(const MeshOptions& options, double diagonal, int face_count, int edge
   }
   for (const auto& [face, label] : options.labels) {
     if (face > face_count)
-      throw InvalidInput("--labels: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
+      throw InvalidInput("--label: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
   }
   const auto check_entity = [](const char* option, const char* kind, int id, int count) {
     if (id > count)

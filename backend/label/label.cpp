@@ -13,6 +13,7 @@
 #include "label/graph_cut.h"
 #include "label/search.h"
 #include "label/straighten.h"
+#include "label/strays.h"
 
 namespace polycube {
 namespace {
@@ -381,6 +382,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   const Violations left = find_violations(graph, points, region_label, 0.75 * edge);
   for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half, sectors), monitor)) result.label.push_back(region_label[r]);
   split_tied_edges(mesh, result.label, monitor);
+  absorb_strays(mesh, result, monitor);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");

@@ -38,7 +38,7 @@ struct LabelReport {
 };
 
 /// The best labelling that the search finds, valid or not: whether it can be realised, the map decides. Cuts the mesh along chart boundaries inside
-/// smooth faces, so that they run straight.
+/// smooth faces, so that they run straight; slivers that this leaves are absorbed (strays.h).
 Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report = nullptr);
 
 }  // namespace polycube

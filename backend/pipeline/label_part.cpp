@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numbers>
 
-#include "label/strays.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "tet/tet.h"
@@ -40,7 +39,6 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   label_options.frame = pose.frame;
   if (options.threads > 0) label_options.threads = options.threads;
   part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
-  absorb_strays(part.tets, part.labelling, monitor);
   part.features = find_features(pose.model, part.tets, part.labelling,
                                 smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces), monitor);
   book("label");

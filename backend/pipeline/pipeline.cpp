@@ -19,7 +19,6 @@
 #include "hex/hex.h"
 #include "label/features.h"
 #include "label/label.h"
-#include "label/strays.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
@@ -254,11 +253,7 @@ class Run {
     label_options.frame = pose_.frame;
     if (options_.threads > 0) label_options.threads = options_.threads;
     LabelReport labels;
-    const Labelling labelling = stage("label", [&] {
-      Labelling found = label(model_, s.tets, label_options, monitor_, &labels);
-      absorb_strays(s.tets, found, monitor_);
-      return found;
-    });
+    const Labelling labelling = stage("label", [&] { return label(model_, s.tets, label_options, monitor_, &labels); });
     if (labels.valid() && labels.turning_points + labels.bad_turns == 0) flawless_.insert(c.widest_bend);
     s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, left_out(c), monitor_); });
     if (!c.features) s.features.charts.clear();

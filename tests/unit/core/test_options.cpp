@@ -72,7 +72,7 @@ TEST(Options, RefusesOthers) {
   EXPECT_THAT(complaint({{"size", "1"}, {"hexes", "10"}}), HasSubstr("only one"));
   EXPECT_THAT(complaint({{"colour", "red"}}), HasSubstr("colour"));
   for (const char* bad : {"Face=+X", "Face1", "Face0=+X", "Edge1=+X", "Face1=X", "Face1=+X,Face1=-X", "Face1x=+X"})
-    EXPECT_THAT(complaint({{"labels", bad}}), HasSubstr("--labels")) << bad;
+    EXPECT_THAT(complaint({{"labels", bad}}), HasSubstr("--label:")) << bad;
 }
 
 TEST(Options, FrameIsReadNormalisedAndSquared) {

@@ -11,7 +11,7 @@ namespace polycube {
 namespace {
 
 // The image needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-double tet_size(double size, double diagonal) { return std::clamp(size, diagonal / 50, diagonal / 28); }
+double tet_size(double size, double diagonal) { return std::clamp(size, diagonal / 50, diagonal / 30); }
 
 }  // namespace
 

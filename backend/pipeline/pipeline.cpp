@@ -49,6 +49,10 @@ constexpr int kReservedFits = 5;
 constexpr double kShortestEdge = 1e-8;
 // A bend that no CAD edge reaches, radians.
 constexpr double kNoEdge = 4;
+// A size above this share of the diagonal may be too coarse for the edges of the part: then the first of these factors on the number of cells
+// along an edge counts with which every CAD edge finds its path.
+constexpr double kCoarse = 1.0 / 25;
+constexpr std::array kFiner{1.25, 1.6, 2.0};
 // The last candidates may always try this often.
 constexpr int kLastFits = 4;
 // eta of section 6.2 for the coarsest mesh.
@@ -219,7 +223,7 @@ class Run {
     if (fresh) {
       TetOptions tet;
       // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 28);
+      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
       it->second = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
     }
     return it->second;
@@ -289,6 +293,31 @@ class Run {
   }
 
   MeshResult attempt(const Candidate& c, bool first, const Divisions& divisions) {
+    Unfinished u = on_grid(c, first, divisions);
+    Association association = associated(u);
+    if (!options_.coarsest && c.min_bend == 0 && size_ > kCoarse * model_.diagonal()) {
+      for (const double finer : kFiner) {
+        if (association.lost_edges.empty()) break;
+        if (finer <= c.refine) continue;
+        Candidate refined = c;
+        refined.refine = finer;
+        Unfinished next = on_grid(refined, false, divisions);
+        Association found = associated(next);
+        if (found.lost_edges.size() >= association.lost_edges.size()) continue;
+        u = std::move(next);
+        association = std::move(found);
+      }
+    }
+    pad_and_fit(u, association);
+    if (u.fitted.inverted > 0) {
+      unfinished_.push_back(std::move(u));
+      throw inverted(unfinished_.back());
+    }
+    return finished(std::move(u));
+  }
+
+  // The candidate up to its grid of hexahedra.
+  Unfinished on_grid(const Candidate& c, bool first, const Divisions& divisions) {
     Unfinished u;
     u.candidate = c;
     u.report = report_;
@@ -313,12 +342,7 @@ class Run {
         monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
       }
     }
-    capture_and_fit(u);
-    if (u.fitted.inverted > 0) {
-      unfinished_.push_back(std::move(u));
-      throw inverted(unfinished_.back());
-    }
-    return finished(std::move(u));
+    return u;
   }
 
   // A mesh that misses an edge is worth more than none: those that inverted cells stand on are given up, smooth ones first.
@@ -327,7 +351,7 @@ class Run {
       const int count = 1 << round;  // more and more of them, to come to an end
       const auto drop = [&](double limit, bool kept_too) { return give_up(u.padded, limit, kept_too, count, u.options); };
       if (!drop(kSmoothBend, false) && !drop(std::numbers::pi, false) && !drop(kNoEdge, true)) break;
-      capture_and_fit(u);
+      pad_and_fit(u, associated(u));
       if (u.fitted.inverted == 0) return finished(std::move(u));
     }
     throw inverted(u);
@@ -358,15 +382,18 @@ class Run {
     return result;
   }
 
-  // Association, padding and fit.
-  void capture_and_fit(Unfinished& u) {
+  Association associated(const Unfinished& u) {
     const HexComplex& complex = u.complex;
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-    const Association association =
+    Association association =
         stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_); });
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                  std::to_string(association.lost_vertices.size()) + " vertices without mesh");
-    u.padded = pad_and_fit(complex.mesh, association, u.choice, u.fitted, u.report);
+    return association;
+  }
+
+  void pad_and_fit(Unfinished& u, const Association& association) {
+    u.padded = pad_and_fit(u.complex.mesh, association, u.choice, u.fitted, u.report);
     for (const WorstCell& cell : worst_cells(u.padded.mesh, u.padded.association, 3)) {
       std::string line = "fit: cell at";
       for (double x : pose_.back(cell.centre)) line += " " + std::to_string(x);

@@ -13,7 +13,7 @@ import tempfile
 
 REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SIZES = (1 / 20, 1 / 40)  # of the bounding-box diagonal
-TET_SIZES = (1 / 28, 1 / 34, 1 / 42, 1 / 50)  # the pipeline's range
+TET_SIZES = (1 / 30, 1 / 34, 1 / 42, 1 / 50)  # the pipeline's range
 
 
 def load_freecad():

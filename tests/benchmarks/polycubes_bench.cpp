@@ -2,8 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "hex/hex.h"
 #include "quantize/dual_flow.h"
@@ -64,14 +64,14 @@ void Hexes(benchmark::State& state) {
   counters(state, e, blocks);
 }
 
-/// Seconds of the median of five runs.
+/// CPU seconds of the median of five runs: one thread, and other work on the machine does not count.
 template <class Work>
 double median_seconds(const Work& work) {
   std::array<double, 5> seconds;
   for (double& s : seconds) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     work();
-    s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   }
   std::sort(seconds.begin(), seconds.end());
   return seconds[2];

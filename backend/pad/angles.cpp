@@ -74,7 +74,9 @@ double angle_cost(int cells, double angle) {
   if (each >= widest) return 1000 * each / widest;
   // A sharp corner of the CAD must not be cut up further: its cells come near to folding over.
   const double narrow = std::max(each, 0.01), needle = 20 * kPi / 180;
-  return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0);
+  // A second cell in a cusp is a cell folded over: worse than a flat one.
+  const double folded = angle < needle ? 4000.0 * (cells - 1) : 0;
+  return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0) + folded;
 }
 
 std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,

@@ -45,7 +45,8 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
   }
   std::stable_sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
   const double enough = choices[0].gain - kHopeless;
-  std::erase_if(choices, [&](const Choice& c) { return c.gain < enough; });
+  // The second best stays in any case: angles do not tell all.
+  while (choices.size() > 2 && choices.back().gain < enough) choices.pop_back();
   std::vector<PaddedMesh> padded;
   if (reports) reports->clear();
   for (Choice& choice : choices) {

@@ -15,6 +15,7 @@ constexpr double kPi = std::numbers::pi;
 constexpr double kBadSector = 0.9;  // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
 constexpr double kLeastGain = 0.3;
 constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
+constexpr int kReach = 4;                   // border nodes on each side of a bad one, for the shortest sheets
 constexpr int kMaxSheets = 400;
 
 // A part of a patch's border: nodes in order with the patch on the left, and whether the last leads to the first.
@@ -181,6 +182,20 @@ Stretch trimmed(const Stretch& stretch) {
           {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
 }
 
+// A stretch cut down to `reach` nodes on both sides of one.
+Stretch window(const Stretch& stretch, int node, int reach) {
+  const int count = static_cast<int>(stretch.nodes.size());
+  const int at = static_cast<int>(std::find(stretch.nodes.begin(), stretch.nodes.end(), node) - stretch.nodes.begin());
+  Stretch part;
+  for (int i = at - reach; i <= at + reach; ++i) {
+    if (!stretch.closed && (i < 0 || i >= count)) continue;
+    const int k = (i + count) % count;
+    part.nodes.push_back(stretch.nodes[k]);
+    part.bad.push_back(stretch.bad[k]);
+  }
+  return part;
+}
+
 // Quads of the patch along a stretch.
 std::vector<int> band_of(const TrialMesh& whole, int patch, const Stretch& stretch) {
   std::vector<int> band;
@@ -215,6 +230,11 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
     if (all.size() <= 4 * band.size()) consider(stretch, all);
     const Stretch shorter = trimmed(stretch);
     if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter));
+    for (int reach = 2; reach <= kReach; ++reach) {
+      if (2 * reach + 1 >= static_cast<int>(stretch.nodes.size())) break;
+      const Stretch part = window(stretch, sectors[bad].node, reach);
+      consider(part, band_of(whole, patch, part));
+    }
   }
   return best;
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
 constexpr double kShort = 0.15;       // an edge this share of its wanted length is as bad as a cell is good
-constexpr double kWideTurn = std::numbers::pi / 6;  // a mesh edge along which its curve turns by this is as bad as a cell is good
+constexpr double kWideTurn = std::numbers::pi / 12;  // a mesh edge along which its curve turns by this is as bad as a cell is good
 constexpr double kTurnWeight = 4;                   // cells share a mesh edge
 constexpr int kFloorPower = 16;
 constexpr int kMemory = 8;            // pairs L-BFGS remembers

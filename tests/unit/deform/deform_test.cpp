@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <memory>
 #include <set>
 
+#include "core/charts.h"
 #include "core/error.h"
+#include "deform/foldover.h"
 #include "support/tet_grid.h"
 
 namespace polycube {
@@ -89,6 +92,31 @@ TEST(Deform, CancelStopsIt) {
   Monitor monitor;
   monitor.cancel();
   EXPECT_THROW(deform(mesh, Mat3::Identity(), box_labels(mesh), {}, {}, monitor), Cancelled);
+}
+
+// One node thrown out of the box comes back, and nothing shrinks for it.
+TEST(Foldovers, ADeepFoldOpensAndThePartKeepsItsSize) {
+  const TetMesh mesh = tet_grid(6, 6, 6);
+  std::vector<Element> elements;
+  for (const Tet& t : mesh.tets) elements.push_back(make_element(mesh.points, t));
+  std::array<UnionFind, 3> groups{UnionFind(mesh.points.size()), UnionFind(mesh.points.size()), UnionFind(mesh.points.size())};
+  for (const Chart& c : find_charts(mesh.triangles, box_labels(mesh))) {
+    for (int n : c.nodes) groups[c.axis].unite(c.nodes.front(), n);
+  }
+  std::array<std::unique_ptr<Coordinate>, 3> system;
+  for (int d = 0; d < 3; ++d) system[d] = std::make_unique<Coordinate>(mesh, elements, groups[d]);
+  std::vector<Vec3> image = mesh.points;
+  for (Vec3& p : image) {
+    if ((p - Vec3(3, 3, 3)).norm() < 1e-9) p += Vec3(8, 5, 3);
+  }
+  const FoldoverReport report = remove_foldovers(mesh, elements, system, image, 1, Monitor());
+  EXPECT_EQ(report.flipped, 0);
+  Vec3 low = image[0], high = image[0];
+  for (const Vec3& p : image) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  EXPECT_GT((high - low).minCoeff(), 3);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "fit/energy.h"
@@ -28,6 +29,61 @@ TEST(Descent, EdgesDoNotCollapseForTheSakeOfTheScaledJacobian) {
   const Monitor monitor;
   Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 4, 0}, targets, whole, {}, 60);
   for (const Hex& h : grid.mesh.hexes) EXPECT_GT((grid.mesh.points[h[0]] - grid.mesh.points[h[1]]).norm(), 0.03);
+}
+
+// The same box with a layer out of place, its CAD edges along x taken for arcs: their turns even the layers out, which no other term asks for.
+TEST(Descent, TurnsSpreadTheNodesOfACurvedEdge) {
+  const auto gap = [](bool curved) {
+    testing::Grid grid = testing::box_grid(4);
+    for (Vec3& p : grid.mesh.points) {
+      if (std::abs(p[0] - 0.25) < 1e-9) p[0] = 0.1;
+    }
+    const CadModel model = CadModel::from_brep(grid.brep);
+    const HexGraph graph = build_hex_graph(grid.mesh);
+    Entities entities(model, grid.association, 1);
+    entities.project(grid.mesh.points);
+    std::vector<Turn> turns;
+    for (const auto& [a, b] : grid.association.segments) {
+      const Vec3 along = grid.mesh.points[b] - grid.mesh.points[a];
+      if (!curved || std::abs(along[0]) < 1e-9) continue;
+      const Vec3 slope = 2 * along.normalized();  // radians per unit of length
+      turns.push_back({{a, b}, {grid.mesh.points[a], grid.mesh.points[b]}, {-slope, slope}, 2 * along.norm()});
+    }
+    const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(0.25));
+    Region whole;
+    whole.hexes.resize(grid.mesh.hexes.size());
+    std::iota(whole.hexes.begin(), whole.hexes.end(), 0);
+    for (int v = 0; v < static_cast<int>(grid.mesh.points.size()); ++v) {
+      if (entities.dimension(v) != 0) whole.nodes.push_back(v);
+    }
+    const Monitor monitor;
+    Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 8}, targets, whole, turns, 100);
+    double least = 1;
+    for (const auto& [a, b] : grid.association.segments) {
+      const double length = std::abs((grid.mesh.points[b] - grid.mesh.points[a])[0]);
+      if (length > 1e-9) least = std::min(least, length);
+    }
+    return least;
+  };
+  EXPECT_LT(gap(false), 0.19);
+  EXPECT_GT(gap(true), 0.22);
+}
+
+TEST(Descent, AFloorCostsAsItsFormulaSays) {
+  testing::Grid grid = testing::box_grid(3);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  const HexGraph graph = build_hex_graph(grid.mesh);
+  Entities entities(model, grid.association, 1);
+  entities.project(grid.mesh.points);
+  const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(1.0 / 3));
+  const Region whole{{0}, {}};
+  const Monitor monitor;
+  const auto energy = [&](double floor) {
+    return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, 0).energy;
+  };
+  // At right angles (scaled Jacobian 1) the eight corners add 1 / floor^2 * floor^16 each.
+  EXPECT_NEAR(energy(0.5) - energy(0), 8 * std::pow(0.5, 14), 1e-12);
+  EXPECT_NEAR(energy(1.25) - energy(0), 8 * std::pow(1.25, 14), 1e-9);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "pad/angles.h"
 #include "pad/pad.h"
 #include "support/grids.h"
@@ -53,6 +55,11 @@ TEST(PadRings, AReentrantCornerHasThreeQuarters) {
     ++reentrant;
   }
   EXPECT_EQ(reentrant, 2);
+}
+
+TEST(PadRings, ASecondCellInACuspIsWorseThanAFlatCorner) {
+  EXPECT_GT(angle_cost(2, 0.2) - angle_cost(1, 0.2), angle_cost(1, std::numbers::pi));
+  EXPECT_LT(angle_cost(2, 0.6), angle_cost(1, std::numbers::pi));
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "deform/system.h"
 
 #include <Eigen/LU>
+#include <iostream>  // MetisSupport needs it and does not say so
+#include <Eigen/MetisSupport>
+#include <mutex>
 
 namespace polycube {
 
@@ -19,6 +22,12 @@ Mat3 jacobian(const Tet& tet, const Element& element, const std::vector<Vec3>& i
   Mat3 j = Mat3::Zero();
   for (int a = 0; a < 4; ++a) j += image[tet[a]] * element.gradient.col(a).transpose();
   return j;
+}
+
+void Dissection::operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const {
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  Eigen::MetisOrdering<int>()(matrix, permutation);
 }
 
 Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements, UnionFind groups) : unknown_(mesh.points.size(), -1) {
@@ -41,7 +50,8 @@ Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements
   }
   Eigen::SparseMatrix<double> matrix(count_ - 1, count_ - 1);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  ok_ = solver_.factorise(matrix);
+  solver_.compute(matrix);
+  ok_ = solver_.info() == Eigen::Success;
 }
 
 Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row) const {

@@ -1,13 +1,20 @@
 // The linear systems of the map: one per coordinate, nodes of a chart sharing one unknown.
 #pragma once
 
+#include <Eigen/SparseCholesky>
+
 #include "core/mesh.h"
 #include "core/union_find.h"
-#include "deform/cholesky.h"
 
 namespace polycube {
 
 using Vector = Eigen::VectorXd;
+
+/// Nested dissection by METIS, one call at a time: its random numbers, seeded anew in every call, belong to the whole process.
+struct Dissection {
+  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
+  void operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const;
+};
 
 /// Gradients of the four hat functions of a tet (columns, 1/mm) and its volume (mm^3).
 struct Element {
@@ -37,7 +44,7 @@ class Coordinate {
   std::vector<int> unknown_;
   int count_ = 0;
   bool ok_ = false;
-  Cholesky solver_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Dissection> solver_;
 };
 
 }  // namespace polycube

@@ -28,7 +28,9 @@ class Options(unittest.TestCase):
             with self.subTest(bad), self.assertRaises(_polycube.InvalidInput) as caught:
                 _polycube.mesh(brep=text, **bad)
             self.assertNotIn("\n", str(caught.exception))
-            self.assertIn("--" + next(iter(bad)).replace("_", "-"), str(caught.exception))
+            name = next(iter(bad))
+            flag = "--label:" if name == "labels" else "--" + name.replace("_", "-")  # --label is given once for every face
+            self.assertIn(flag, str(caught.exception))
         for bad in ({"colour": 1}, {}):
             with self.subTest(bad), self.assertRaises(ValueError):
                 _polycube.mesh(path="a.step", brep=text, **bad)

@@ -29,6 +29,11 @@ def write_json(path, value):
         json.dump(value, file)
 
 
+def argument_name(flag):
+    """The argument that an option of the command line is here: time_limit for time-limit. "--label" is given once for every face."""
+    return "labels" if flag == "label" else flag.replace("-", "_")
+
+
 def flatten(mesh):
     """Arrays of the mesh by name; groups as "group/<name>/<what>"."""
     arrays = {
@@ -70,7 +75,7 @@ def run(folder, what):
         )
     except polycube.InvalidInput as error:
         # The engine writes options as on the command line, --time-limit; here they are time_limit.
-        message = re.sub(r"--([a-z][a-z-]*)", lambda option: option.group(1).replace("-", "_"), str(error))
+        message = re.sub(r"--([a-z][a-z-]*)", lambda option: argument_name(option.group(1)), str(error))
         write_json(os.path.join(folder, "error.json"), {"kind": "InvalidInput", "message": message})
         return 1
     except polycube.StageFailed as error:

@@ -9,12 +9,17 @@
 namespace polycube {
 namespace {
 
-// A box whose layers of cells along x are 0.01, 0.49, 0.25, ... thick: every cell has the best scaled Jacobian there is.
-TEST(Descent, EdgesDoNotCollapseForTheSakeOfTheScaledJacobian) {
+// A unit box of 4^3 cells whose first inner layer of nodes along x, at 0.25, is moved to `layer`.
+testing::Grid uneven_box(double layer) {
   testing::Grid grid = testing::box_grid(4);
   for (Vec3& p : grid.mesh.points) {
-    if (std::abs(p[0] - 0.25) < 1e-9) p[0] = 0.01;
+    if (std::abs(p[0] - 0.25) < 1e-9) p[0] = layer;
   }
+  return grid;
+}
+
+// Every cell, and every node that may move, wanted edge lengths those of even cells.
+void descend(testing::Grid& grid, const Energy& energy, const std::vector<Turn>& turns, int iterations) {
   const CadModel model = CadModel::from_brep(grid.brep);
   const HexGraph graph = build_hex_graph(grid.mesh);
   Entities entities(model, grid.association, 1);
@@ -27,21 +32,20 @@ TEST(Descent, EdgesDoNotCollapseForTheSakeOfTheScaledJacobian) {
     if (entities.dimension(v) != 0) whole.nodes.push_back(v);
   }
   const Monitor monitor;
-  Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 4, 0}, targets, whole, {}, 60);
+  Descent(grid.mesh, graph, entities, 1, monitor).run(energy, targets, whole, turns, iterations);
+}
+
+// A box whose layers of cells along x are 0.01, 0.49, 0.25, ... thick: every cell has the best scaled Jacobian there is.
+TEST(Descent, EdgesDoNotCollapseForTheSakeOfTheScaledJacobian) {
+  testing::Grid grid = uneven_box(0.01);
+  descend(grid, {0, 1, 4}, {}, 60);
   for (const Hex& h : grid.mesh.hexes) EXPECT_GT((grid.mesh.points[h[0]] - grid.mesh.points[h[1]]).norm(), 0.03);
 }
 
 // The same box with a layer out of place, its CAD edges along x taken for arcs: their turns even the layers out, which no other term asks for.
 TEST(Descent, TurnsSpreadTheNodesOfACurvedEdge) {
   const auto gap = [](bool curved) {
-    testing::Grid grid = testing::box_grid(4);
-    for (Vec3& p : grid.mesh.points) {
-      if (std::abs(p[0] - 0.25) < 1e-9) p[0] = 0.1;
-    }
-    const CadModel model = CadModel::from_brep(grid.brep);
-    const HexGraph graph = build_hex_graph(grid.mesh);
-    Entities entities(model, grid.association, 1);
-    entities.project(grid.mesh.points);
+    testing::Grid grid = uneven_box(0.1);
     std::vector<Turn> turns;
     for (const auto& [a, b] : grid.association.segments) {
       const Vec3 along = grid.mesh.points[b] - grid.mesh.points[a];
@@ -49,15 +53,7 @@ TEST(Descent, TurnsSpreadTheNodesOfACurvedEdge) {
       const Vec3 slope = 2 * along.normalized();  // radians per unit of length
       turns.push_back({{a, b}, {grid.mesh.points[a], grid.mesh.points[b]}, {-slope, slope}, 2 * along.norm()});
     }
-    const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(0.25));
-    Region whole;
-    whole.hexes.resize(grid.mesh.hexes.size());
-    std::iota(whole.hexes.begin(), whole.hexes.end(), 0);
-    for (int v = 0; v < static_cast<int>(grid.mesh.points.size()); ++v) {
-      if (entities.dimension(v) != 0) whole.nodes.push_back(v);
-    }
-    const Monitor monitor;
-    Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 8}, targets, whole, turns, 100);
+    descend(grid, {0, 1, 8}, turns, 100);
     double least = 1;
     for (const auto& [a, b] : grid.association.segments) {
       const double length = std::abs((grid.mesh.points[b] - grid.mesh.points[a])[0]);

@@ -128,7 +128,8 @@ std::string to_json(const MeshReport& report) {
   };
   json["cad"] = {{"vertices", entities(0, c.vertices, c.vertices_captured, c.lost_vertices, c.ignored_vertices)},
                  {"edges", entities(1, c.edges, c.edges_captured, c.lost_edges, c.ignored_edges)},
-                 {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)}};
+                 {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)},
+                 {"loose_nodes", report.loose_nodes}};
   const QuantizationRecord& q = report.quantization;
   json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
                           {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};

@@ -52,6 +52,7 @@ struct MeshReport {
   CadCapture capture;
   QuantizationRecord quantization;
   int padded_hexes = 0;                 ///< cells that padding added
+  int loose_nodes = 0;                  ///< on CAD edges whose curve is there more than 1e-7 mm off a face of theirs (files with loose tolerances)
   int straightened_edges = 0;           ///< second order: curved edges left straight because curving would invert a cell
   std::vector<std::string> warnings;    ///< one line each
 };

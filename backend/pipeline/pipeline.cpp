@@ -23,6 +23,7 @@
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/demands.h"
+#include "pipeline/loose_nodes.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "quantize/quantize.h"
@@ -578,6 +579,7 @@ MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor
   for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
   r.cad_volume = model.volume();
   r.worst = worst_cells(result.mesh, result.association);
+  r.loose_nodes = count_loose_nodes(model, result.association, result.mesh.points);
   return result;
 }
 

@@ -181,6 +181,16 @@ std::string scaled(const std::string& brep, double factor) {
   return text(BRepBuilderAPI_Transform(parse(brep), scale, true).Shape());
 }
 
+std::string loosened(const std::string& brep, double tolerance) {
+  const TopoDS_Shape shape = parse(brep);
+  const BRep_Builder builder;
+  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next()) {
+    builder.UpdateEdge(TopoDS::Edge(e.Current()), tolerance);
+    for (TopExp_Explorer v(e.Current(), TopAbs_VERTEX); v.More(); v.Next()) builder.UpdateVertex(TopoDS::Vertex(v.Current()), tolerance);
+  }
+  return text(shape);
+}
+
 std::string compound(const std::string& a, const std::string& b) {
   TopoDS_Compound result;
   const BRep_Builder builder;

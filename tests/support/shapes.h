@@ -25,6 +25,8 @@ std::string half_cylinder(double radius, double height);            ///< cut by 
 std::string moved(const std::string& brep, double degrees, double x, double y, double z);
 /// Scaled about the origin.
 std::string scaled(const std::string& brep, double factor);
+/// The shape with this tolerance on its edges, as files with loose tolerances have it; the geometry stays.
+std::string loosened(const std::string& brep, double tolerance);
 /// One compound of both.
 std::string compound(const std::string& a, const std::string& b);
 

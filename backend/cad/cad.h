@@ -66,6 +66,9 @@ class CadModel {
   const CadEdge& edge(int id) const;
   const Vec3& vertex(int id) const;
 
+  /// Faces, edges and vertices, faces first, at which the solid touches or crosses itself; empty for a sound one. Seconds for a part of a hundred faces.
+  std::vector<CadRef> self_contacts() const;
+
   Vec3 box_min() const;
   Vec3 box_max() const;
   double diagonal() const;   ///< of the bounding box, mm

@@ -159,6 +159,7 @@ class Run {
       } catch (const StageFailed& e) {
         monitor_.log("candidate '" + name + "' failed in " + e.stage() + ": " + e.what());
         if (!failure) failure = e;
+        if (e.stage() == "tet" && !best) throw;  // every setting was tried: the other candidates have no other tets
       }
       return best && good_enough(*best);
     };
@@ -220,14 +221,12 @@ class Run {
   }
 
   const TetMesh& tets(double factor) {
-    const auto [it, fresh] = tets_.try_emplace(factor);
-    if (fresh) {
-      TetOptions tet;
-      // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
-      it->second = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
-    }
-    return it->second;
+    const auto known = tets_.find(factor);
+    if (known != tets_.end()) return known->second;
+    TetOptions tet;
+    // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
+    tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
+    return tets_.emplace(factor, stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); })).first->second;
   }
 
   // Labels, map and blocks of a candidate; made once for all candidates that agree so far.

@@ -71,6 +71,16 @@ RawMesh attempt(const std::vector<std::string>& command, const std::string& erro
   }
 }
 
+void refuse_contacts(const CadModel& model) {
+  constexpr std::size_t kNamed = 4;
+  const std::vector<CadRef> contacts = model.self_contacts();
+  if (contacts.empty()) return;
+  std::string text = "the solid touches or crosses itself at";
+  for (std::size_t i = 0; i < std::min(contacts.size(), kNamed); ++i) text += (i == 0 ? " " : ", ") + name(contacts[i]);
+  if (contacts.size() > kNamed) text += " and others";
+  throw InvalidInput(text);
+}
+
 }  // namespace
 
 TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const Monitor& monitor) {
@@ -100,6 +110,8 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
       reason = failure.what();
       if (!failure.entities.empty()) entities = failure.entities;
       monitor.log("tet: " + describe(rung) + ": " + reason);
+      // No setting helps a solid that touches itself, and looking for that is too slow to be done for every part.
+      if (&rung == &kLadder.front()) refuse_contacts(model);
     }
   }
   throw StageFailed("tet", "Gmsh makes no usable tetrahedra with any of " + std::to_string(kLadder.size()) + " settings; last: " + reason, entities);

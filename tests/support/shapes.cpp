@@ -200,6 +200,15 @@ std::string compound(const std::string& a, const std::string& b) {
   return text(result);
 }
 
+std::string crossed_box(double size) {
+  const double low = 0.3 * size, high = 0.7 * size;
+  const TopoDS_Shape hull = block({0, 0, 0}, {size, size, size}), hole = block({high, low, low}, {1.2 * size, high, high});
+  BRepBuilderAPI_MakeSolid solid;
+  for (TopExp_Explorer shell(hull, TopAbs_SHELL); shell.More(); shell.Next()) solid.Add(TopoDS::Shell(shell.Current()));
+  for (TopExp_Explorer shell(hole, TopAbs_SHELL); shell.More(); shell.Next()) solid.Add(TopoDS::Shell(shell.Current().Reversed()));
+  return text(solid.Solid());
+}
+
 std::string open_box(double size) { return text(five_faces(size)); }
 std::string open_solid(double size) { return text(BRepBuilderAPI_MakeSolid(five_faces(size)).Solid()); }
 std::string loose_face(double size) { return text(rectangle(size, 0)); }

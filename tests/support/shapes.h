@@ -30,6 +30,9 @@ std::string loosened(const std::string& brep, double tolerance);
 /// One compound of both.
 std::string compound(const std::string& a, const std::string& b);
 
+/// A cube whose cubic void sticks out of its side x = size: every face is sound, the shells cross.
+std::string crossed_box(double size);
+
 /// Not solids, for refusals.
 std::string open_box(double size);   ///< shell of five faces
 std::string open_solid(double size); ///< a solid of that shell

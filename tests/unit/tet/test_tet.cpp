@@ -270,6 +270,17 @@ TEST(Ladder, FailsWithTheStage) {
   }
 }
 
+// Gmsh cannot be made to mesh it, and the other settings would only take the user's time.
+TEST(Ladder, RefusesASolidThatCrossesItself) {
+  const CadModel model = CadModel::from_brep(shapes::crossed_box(10));
+  try {
+    mesh_of(model);
+    FAIL() << "meshed";
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("touches or crosses itself at Face"));
+  }
+}
+
 TEST(Ladder, CancelsAtOnce) {
   const FakeWorker worker("exec sleep 1000");
   const CadModel model = CadModel::from_brep(shapes::box(1, 2, 3));

@@ -26,6 +26,7 @@
 #include "pipeline/loose_nodes.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
+#include "pipeline/vertex_room.h"
 #include "quantize/quantize.h"
 #include "tet/tet.h"
 
@@ -324,16 +325,8 @@ class Run {
     u.structure = &structure(c);
     const Structure& s = *u.structure;
     const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
-    u.quantization = stage("quantize", [&] {
-      MeshOptions demanded = options_;
-      demanded.divisions = divisions;
-      return quantize(s.blocks, s.map, quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale), monitor_);
-    });
-    u.complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
-    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
-    u.options.size = typical_edge(u.complex.mesh);
-    u.options.edge_chains = edge_chains(model_, s.tets);
     u.options.ignored = ignored_;
+    u.options.edge_chains = edge_chains(model_, s.tets);
     const std::vector<char> out = left_out(c);
     for (const FeatureEdge& e : s.features.edges) {
       if (out[e.edge]) {
@@ -342,7 +335,26 @@ class Run {
         monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
       }
     }
+    u.quantization = stage("quantize", [&] { return quantized(s, u.options, divisions, scale); });
+    u.complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
+    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
+    u.options.size = typical_edge(u.complex.mesh);
     return u;
+  }
+
+  Quantization quantized(const Structure& s, const AssociateOptions& association, const Divisions& divisions, double scale) const {
+    MeshOptions demanded = options_;
+    demanded.divisions = divisions;
+    const QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
+    QuantizeOptions roomy = asked;
+    const auto room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
+    roomy.constraints.insert(roomy.constraints.end(), room.begin(), room.end());
+    try {
+      return quantize(s.blocks, s.map, roomy, monitor_);
+    } catch (const InvalidInput&) {
+      if (room.empty()) throw;
+      return quantize(s.blocks, s.map, asked, monitor_);  // what the user demands comes first
+    }
   }
 
   // A mesh that misses an edge is worth more than none: those that inverted cells stand on are given up, smooth ones first.

@@ -168,6 +168,14 @@ std::string half_cylinder(double radius, double height) {
   return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), tool).Shape()));
 }
 
+std::string ribbed_cup(double radius) {
+  const double wall = 0.1 * radius, height = 1.5 * radius, bore = radius - wall;
+  const TopoDS_Shape hull = BRepPrimAPI_MakeCylinder(radius, height).Shape();
+  const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, wall}, {0, 0, 1}), bore, height).Shape();
+  const TopoDS_Shape rib = block({-bore, -wall / 2, wall}, {bore, wall / 2, radius + wall});
+  return text(solid(BRepAlgoAPI_Fuse(BRepAlgoAPI_Cut(hull, hole).Shape(), rib).Shape()));
+}
+
 std::string moved(const std::string& brep, double degrees, double x, double y, double z) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1({0, 0, 0}, {1, 2, 3}), degrees * std::numbers::pi / 180);

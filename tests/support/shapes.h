@@ -21,6 +21,8 @@ std::string loft(double size, double height);                       ///< square 
 std::string turned(double radius, double height, double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
 std::string half_cylinder(double radius, double height);            ///< cut by the plane y = 0, y >= 0 stays
 
+std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it; the bore's seam ends in the middle of the rib's upper end
+
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).
 std::string moved(const std::string& brep, double degrees, double x, double y, double z);
 /// Scaled about the origin.

@@ -9,6 +9,9 @@ namespace polycube {
 namespace {
 
 constexpr double kFinest = 6;       // smallest size, as a divisor of the target
+// On a face that makes out this share of the surface (a wire, a spring), finer as long as it gets no more than about twice this many triangles.
+constexpr double kMainFace = 0.25;
+constexpr double kMainTriangles = 8000;
 constexpr int kSamples = 9;         // of a CAD edge
 // The curvature that counts is exceeded on a quarter of the samples only: a cone's tip must not refine the whole cone.
 constexpr double kQuantile = 0.75;
@@ -65,18 +68,25 @@ double face_curvature(const CadModel& model, int id) {
 
 EntitySizes entity_sizes(const CadModel& model, double size, double per_circle) {
   EntitySizes sizes;
-  sizes.least = size / kFinest;
-  const auto from_curvature = [&](double curvature) {
+  const double finest = size / kFinest;
+  const auto from_curvature = [&](double curvature, double least) {
     if (per_circle <= 0 || curvature <= 0) return size;
-    return std::clamp(2 * std::numbers::pi / (per_circle * curvature), sizes.least, size);
+    return std::clamp(2 * std::numbers::pi / (per_circle * curvature), least, size);
   };
-  for (int f = 1; f <= model.face_count(); ++f) sizes.faces.push_back(from_curvature(face_curvature(model, f)));
+  double surface = 0;
+  for (int f = 1; f <= model.face_count(); ++f) surface += model.face(f).area;
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const double area = model.face(f).area;
+    const double least = area < kMainFace * surface ? finest : std::min(finest, std::sqrt(area / kMainTriangles));
+    sizes.faces.push_back(from_curvature(face_curvature(model, f), least));
+  }
   for (int e = 1; e <= model.edge_count(); ++e) {
     const CadEdge& edge = model.edge(e);
-    double edge_size = edge.degenerate ? size : from_curvature(edge_curvature(model, e));
+    double edge_size = edge.degenerate ? size : from_curvature(edge_curvature(model, e), finest);
     for (const int f : edge.faces) edge_size = std::min(edge_size, sizes.faces[static_cast<std::size_t>(f - 1)]);
     sizes.edges.push_back(edge_size);
   }
+  sizes.least = std::min(finest, *std::min_element(sizes.faces.begin(), sizes.faces.end()));
   return sizes;
 }
 

@@ -82,6 +82,14 @@ TEST(Pipeline, CoarsestIsCoarser) {
   EXPECT_GT(a.report.hexes, 100);
 }
 
+// The default size is many times the wire's thickness.
+TEST(Pipeline, AWireIsMeshed) {
+  const MeshResult result = mesh(CadModel::from_brep(shapes::cylinder(1, 500)), MeshOptions(), Monitor());
+  EXPECT_EQ(result.association.patches.size(), 3u);
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_GE(result.report.quality.min_scaled_jacobian, 0.3);
+}
+
 TEST(Pipeline, CancelAndBadOptionsEndIt) {
   const CadModel model = CadModel::from_brep(shapes::box(1, 1, 1));
   Monitor monitor;

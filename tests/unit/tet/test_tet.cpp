@@ -205,6 +205,21 @@ TEST(Sizes, FollowCurvatureWithinBounds) {
   EXPECT_DOUBLE_EQ(*std::min_element(off.edges.begin(), off.edges.end()), 8.0);
 }
 
+// The size follows the length of a wire, but its barrel has to keep enough elements round it to be told from a plate.
+TEST(Sizes, AMainFaceMayBeFiner) {
+  const CadModel wire = CadModel::from_brep(shapes::cylinder(1, 500));
+  const double size = 500.0 / 30;
+  const EntitySizes sizes = entity_sizes(wire, size, 12);
+  for (int f = 1; f <= wire.face_count(); ++f) {
+    if (wire.face(f).kind != SurfaceKind::kCylinder) continue;
+    EXPECT_LT(sizes.faces[at(f - 1)], 2 * 3.14159265 / 8);
+    EXPECT_DOUBLE_EQ(sizes.least, sizes.faces[at(f - 1)]);
+  }
+  // However long it is, the number of elements stays bounded.
+  const EntitySizes longer = entity_sizes(CadModel::from_brep(shapes::cylinder(1, 50000)), 50000.0 / 30, 12);
+  EXPECT_GT(longer.least, 5);
+}
+
 /// A script in the worker's place.
 class FakeWorker {
  public:

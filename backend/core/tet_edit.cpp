@@ -7,6 +7,11 @@
 namespace polycube {
 namespace {
 
+// Of its volume that a tet keeps at least when one of its nodes is moved.
+constexpr double kLeastShare = 0.1;
+
+double six_volumes(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
+
 Segment sorted(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
 template <class Cell>
@@ -38,11 +43,27 @@ bool TetEditor::keeps_volumes(int a, int b, const Vec3& point) const {
     for (int end : {a, b}) {
       std::array<Vec3, 4> p;
       for (int k = 0; k < 4; ++k) p[k] = mesh_.tets[t][k] == end ? point : mesh_.points[mesh_.tets[t][k]];
-      if ((p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]) <= 0) return false;
+      if (six_volumes(p) <= 0) return false;
     }
   }
   return true;
 }
+
+bool TetEditor::move(int node, const Vec3& to) {
+  for (int t : tets_at_[node]) {
+    std::array<Vec3, 4> before, after;
+    for (int k = 0; k < 4; ++k) {
+      const int n = mesh_.tets[t][k];
+      before[k] = mesh_.points[n];
+      after[k] = n == node ? to : mesh_.points[n];
+    }
+    if (six_volumes(after) <= kLeastShare * six_volumes(before)) return false;
+  }
+  mesh_.points[node] = to;
+  return true;
+}
+
+bool TetEditor::is_segment(int a, int b) const { return segment_.count(sorted(a, b)) > 0; }
 
 int TetEditor::split_edge(int a, int b, const Vec3& point) {
   const int middle = static_cast<int>(mesh_.points.size());
@@ -69,7 +90,7 @@ int TetEditor::split_edge(int a, int b, const Vec3& point) {
   split(mesh_.triangles, triangles_at_, triangles);
   for (int t : triangles) {
     mesh_.triangle_face.push_back(mesh_.triangle_face[t]);
-    parent_.push_back(parent_[t]);
+    parent_.push_back(t);
     mesh_.point_cad[middle] = {2, mesh_.triangle_face[t]};
   }
   if (const auto it = segment_.find(sorted(a, b)); it != segment_.end()) {

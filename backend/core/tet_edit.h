@@ -19,7 +19,15 @@ class TetEditor {
   /// Would all tets round (a, b) keep a positive volume?
   bool keeps_volumes(int a, int b, const Vec3& point) const;
 
-  /// Per triangle: the triangle of the mesh as it was given that it is a part of.
+  /// Moves a node unless a tet at it would lose nine tenths of its volume or more. Returns whether it did.
+  bool move(int node, const Vec3& to);
+
+  /// Is (a, b) a segment on a CAD edge?
+  bool is_segment(int a, int b) const;
+
+  const std::vector<int>& triangles_at(int node) const { return triangles_at_[node]; }
+
+  /// Per triangle: the one it was split from, always before it; itself for those of the mesh as it was given.
   const std::vector<int>& triangle_parent() const { return parent_; }
 
  private:

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/charts.h"
+#include "label/barrels.h"
 #include "label/frame.h"
 #include "label/graph_cut.h"
 #include "label/search.h"
@@ -25,6 +26,8 @@ constexpr double kLevelCosine = 0.996;
 // Normals within about 10 degrees of their mean: as good as a plane.
 constexpr double kFlatCosine = 0.985;
 constexpr double kSharpBend = std::numbers::pi / 6;
+// Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
+constexpr double kSmallShare = 0.04, kNarrow = 1.5;
 // Where the rise of strictness begins.
 constexpr double kFirstStrictness = 10;
 
@@ -185,58 +188,16 @@ Halves halves(const Setup& s) {
   return {std::move(half), std::move(slope), std::move(middle)};
 }
 
-// A barrel may have to change its label along the generator where another face ends on it (the foot of a leg, an arm that touches tangentially) rather
-// than at 45 degrees: it is cut there too.
-struct Sectors {
-  std::vector<int> sector;                       // per triangle
-  std::vector<std::vector<double>> cuts;         // per CAD face: angles, ascending
-  std::vector<std::array<Vec3, 2>> across;       // per CAD face: directions of angle 0 and 90 degrees, in model space
-};
-
-double angle_on(const Setup& s, const Sectors& sectors, int face, const Vec3& p) {
-  const Vec3 arm = p - s.model.face(face).centre;
-  return std::atan2(arm.dot(sectors.across[face][1]), arm.dot(sectors.across[face][0]));
-}
-
-Sectors find_sectors(const Setup& s) {
-  constexpr double kNear = std::numbers::pi / 36;
-  Sectors result;
-  result.cuts.resize(s.model.face_count() + 1);
-  result.across.resize(s.model.face_count() + 1);
-  for (int f = 1; f <= s.model.face_count(); ++f) {
-    const CadFace& face = s.model.face(f);
-    if (s.whole[f] || (face.kind != SurfaceKind::kCylinder && face.kind != SurfaceKind::kCone)) continue;
-    result.across[f][0] = face.axis.unitOrthogonal();
-    result.across[f][1] = face.axis.cross(result.across[f][0]);
-    std::set<int> vertices;
-    for (int e : face.edges) {
-      if (!s.model.edge(e).seam && !s.model.edge(e).closed) vertices.insert(s.model.edge(e).vertices.begin(), s.model.edge(e).vertices.end());
+// The longest side of the box about some triangles.
+double extent(const TetMesh& mesh, const std::vector<int>& triangles) {
+  Vec3 low = mesh.points[mesh.triangles[triangles.front()][0]], high = low;
+  for (int t : triangles) {
+    for (int n : mesh.triangles[t]) {
+      low = low.cwiseMin(mesh.points[n]);
+      high = high.cwiseMax(mesh.points[n]);
     }
-    std::vector<double>& cuts = result.cuts[f];
-    for (int v : vertices) {
-      const double angle = angle_on(s, result, f, s.model.vertex(v));
-      // The normal there; within 5 degrees of 45 the cut by label serves.
-      Vec3 n = s.frame * (std::cos(angle) * result.across[f][0] + std::sin(angle) * result.across[f][1]);
-      n = n.cwiseAbs();
-      std::sort(n.data(), n.data() + 3);
-      if (std::atan2(n[2], n[1]) < std::numbers::pi / 4 + kNear) continue;
-      if (std::none_of(cuts.begin(), cuts.end(), [&](double c) { return std::abs(std::remainder(c - angle, 2 * std::numbers::pi)) < kNear; })) cuts.push_back(angle);
-    }
-    std::sort(cuts.begin(), cuts.end());
-    if (cuts.size() < 2) cuts.clear();  // one generator does not divide a full turn, and a part of one has its end there
   }
-  for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
-    const int f = s.mesh.triangle_face[t];
-    const auto& cuts = result.cuts[f];
-    int sector = 0;
-    if (!cuts.empty()) {
-      Vec3 centre = Vec3::Zero();
-      for (int n : s.mesh.triangles[t]) centre += s.mesh.points[n] / 3;
-      sector = static_cast<int>(std::lower_bound(cuts.begin(), cuts.end(), angle_on(s, result, f, centre)) - cuts.begin()) % static_cast<int>(cuts.size());
-    }
-    result.sector.push_back(sector);
-  }
-  return result;
+  return (high - low).maxCoeff();
 }
 
 // Connected triangles of one CAD face, one label and one half. Pieces much smaller than their face's largest join the neighbour they share most
@@ -246,11 +207,11 @@ struct Split {
   std::vector<int> kind;    // per region: half + 8 * label + 64 * sector
 };
 
-Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves, const Sectors& sectors) {
+Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves, const Barrels& barrels, double edge) {
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
   std::vector<int> kind = halves.half;
-  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t] + 64 * sectors.sector[t];
+  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t] + 64 * barrels.sector(t);
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {
     region.assign(n, -1);
@@ -278,7 +239,8 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
     bool changed = false;
     for (std::size_t id = 0; id < members.size(); ++id) {
       const int face = s.mesh.triangle_face[members[id][0]];
-      if (area[id] > 0.04 * largest[face]) continue;
+      if (area[id] > kSmallShare * largest[face]) continue;
+      if (s.options.narrow_regions && area[id] > kNarrow * edge * extent(s.mesh, members[id])) continue;
       std::map<int, double> border;
       for (int t : members[id]) {
         for (int k = 0; k < 3; ++k) {
@@ -301,40 +263,38 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
 
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
 std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, const std::vector<int>& region_label, const Split& split,
-                                    const Halves& halves, const Sectors& sectors) {
+                                    const Halves& halves, const Barrels& barrels) {
   std::vector<BorderFunction> result;
   std::set<std::pair<int, int>> done;
   for (const Arc& arc : graph.arcs) {
     const int a = arc.left, b = arc.right, face = graph.regions[a].face;
     if (graph.regions[b].face != face || region_label[a] == region_label[b] || !done.insert(std::minmax(a, b)).second) continue;
+    std::vector<int> ends;
+    for (const Arc& other : graph.arcs) {
+      if (std::minmax(other.left, other.right) != std::minmax(a, b) || other.start < 0) continue;
+      for (int j : {other.start, other.end}) ends.push_back(graph.junctions[j].node);
+    }
     const int p = split.kind[a], q = split.kind[b];
     if (!halves.slope[face].isZero() && p % 8 != q % 8) {
       const double sign = p % 8 > q % 8 ? 1 : -1;
-      result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }});
+      result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }, ends});
       continue;
     }
     const int l = s.whole[face] ? p % 8 : p / 8 % 8, m = s.whole[face] ? q % 8 : q / 8 % 8;
     if (s.flat[face]) continue;
-    if (l == m) {
-      if (p / 64 == q / 64) continue;
-      // Sector i ends at cut i.
-      const int count = static_cast<int>(sectors.cuts[face].size());
-      const bool before = (p / 64 + 1) % count == q / 64;
-      if (!before && (q / 64 + 1) % count != p / 64) continue;
-      const double cut = sectors.cuts[face][before ? p / 64 : q / 64], sign = before ? -1 : 1;
-      result.push_back({a, b, [&s, &sectors, face, cut, sign](int n) {
-                          const double beyond = angle_on(s, sectors, face, s.mesh.points[n]) - cut;
-                          return std::cos(beyond) > 0 ? sign * std::sin(beyond) : kNoOpinion;  // the sine is zero on the far side too
-                        }});
+    if (std::vector<BorderFunction> along = barrels.borders(graph, a, b, l, m); !along.empty()) {
+      result.insert(result.begin(), std::make_move_iterator(along.begin()), std::make_move_iterator(along.end()));  // before others that may end where they do
       continue;
     }
+    if (l == m) continue;
     Vec3 direction = Vec3::Zero();
     direction[label_axis(l)] += label_sign(l);
     direction[label_axis(m)] -= label_sign(m);
     result.push_back({a, b, [&s, face, direction](int n) {
                         const FacePoint at = s.model.project_to_face(face, s.mesh.points[n]);
                         return as_seen(s, face, s.frame * s.model.face_normal(face, at.uv)).dot(direction);
-                      }});
+                      },
+                      ends});
   }
   return result;
 }
@@ -347,8 +307,13 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   const std::vector<int> first = cut_triangles(s, monitor);
   monitor.progress("label", 0.3);
   const Halves half = halves(s);
-  const Sectors sectors = find_sectors(s);
-  const Split split = split_regions(s, first, half, sectors);
+  std::vector<char> divided(s.whole.size());
+  std::transform(s.whole.begin(), s.whole.end(), divided.begin(), [](char whole) { return !whole; });
+  const Barrels barrels(model, mesh, s.frame, divided);
+  double edge = 0;
+  for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
+  edge /= static_cast<double>(mesh.triangles.size());
+  const Split split = split_regions(s, first, half, barrels, edge);
   RegionGraph graph = build_region_graph(mesh, split.region);
   std::vector<int> given(model.face_count() + 1, -1);
   for (const auto& [face, label] : options.face_labels) given[face] = label;
@@ -368,9 +333,6 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
-  double edge = 0;
-  for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
-  edge /= static_cast<double>(mesh.triangles.size());
   // Violations become dearer step by step: what a change of little cost mends is mended by it.
   for (double strictness = std::min(kFirstStrictness, options.strictness);; strictness *= 2) {
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
@@ -379,16 +341,16 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
 
   Labelling result;
   result.frame = s.frame;
-  const Violations left = find_violations(graph, points, region_label, 0.75 * edge);
-  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half, sectors), monitor)) result.label.push_back(region_label[r]);
+  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half, barrels), monitor)) result.label.push_back(region_label[r]);
   split_tied_edges(mesh, result.label, monitor);
   absorb_strays(mesh, result, monitor);
+  const Violations left = find_violations(mesh, result.frame, result.label);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
   if (report) {
-    *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs,
-               left.poor_loops, left.bad_corners, left.turning_points, left.bad_turns};
+    *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs, left.poor_loops,
+               left.bad_corners, left.turning_points, left.bad_turns, left.score, region_energy(graph, region_label)};
   }
   monitor.progress("label", 1);
   return result;

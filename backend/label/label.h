@@ -13,6 +13,7 @@ struct LabelOptions {
   double fidelity = 3;                              ///< weight of agreeing with the normal
   double compactness = 1;                           ///< weight of short chart boundaries
   double widest_bend = 0.5;                         ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
+  bool narrow_regions = false;                      ///< pieces of a face between generators that are small against the face may have labels of their own
   double strictness = 100;                          ///< energy that one violation is worth; high: any relabelling to be rid of it
   std::vector<std::pair<int, int>> face_labels;     ///< (CAD face, label 0..5) given by the user
   bool frame_given = false;
@@ -25,7 +26,8 @@ struct Labelling {
   std::vector<int> label;         ///< per boundary triangle: 0..5 = +X -X +Y -Y +Z -Z of the frame
 };
 
-/// What the search left, by the published rules (validity.h); all zero but `regions` and `charts` for a valid, monotone labelling.
+/// What is wrong with the labels as they are after all cuts, by the published rules (validity.h); all zero but `regions`, `charts` and `energy` for a
+/// valid, monotone labelling.
 struct LabelReport {
   int regions = 0;
   int charts = 0;
@@ -34,6 +36,8 @@ struct LabelReport {
   int bad_corners = 0;
   int turning_points = 0;
   int bad_turns = 0;
+  double score = 0;   ///< of the violations, weighted
+  double energy = 0;  ///< of the labels: deviation from the normals and borders, what the search lowers after the violations
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };
 

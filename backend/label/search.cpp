@@ -11,15 +11,6 @@ namespace {
 
 constexpr int kMaxMoves = 400;
 
-double region_energy(const RegionGraph& g, const std::vector<int>& label) {
-  double sum = 0;
-  for (std::size_t r = 0; r < g.regions.size(); ++r) sum += g.regions[r].data[label[r]];
-  for (const Arc& a : g.arcs) {
-    if (label[a.left] != label[a.right]) sum += a.weight * a.length;
-  }
-  return sum;
-}
-
 struct Move {
   std::vector<int> regions;
   int label;
@@ -79,6 +70,15 @@ std::vector<Move> moves_near(const RegionGraph& g, const Violations& violations,
 }
 
 }  // namespace
+
+double region_energy(const RegionGraph& g, const std::vector<int>& label) {
+  double sum = 0;
+  for (std::size_t r = 0; r < g.regions.size(); ++r) sum += g.regions[r].data[label[r]];
+  for (const Arc& a : g.arcs) {
+    if (label[a.left] != label[a.right]) sum += a.weight * a.length;
+  }
+  return sum;
+}
 
 std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, double weight,
                         int threads, const Monitor& monitor) {

@@ -6,6 +6,9 @@
 
 namespace polycube {
 
+/// Of the regions' labels (Region::data) and of the changes between them (Arc::weight).
+double region_energy(const RegionGraph& graph, const std::vector<int>& region_label);
+
 /// Lowers the violations, then the energy (Region::data and Arc::weight), by relabelling single regions, pairs of adjacent regions, whole
 /// charts and all regions round a bad corner.
 /// Never returns a labelling with a higher score than it was given. Deterministic; ends when no move helps.

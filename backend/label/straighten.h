@@ -13,12 +13,14 @@ namespace polycube {
 struct BorderFunction {
   int positive = 0, negative = 0;       ///< regions
   std::function<double(int)> value;     ///< per mesh point; kNoOpinion far from the border
+  std::vector<int> ends;                ///< mesh points where the border between the regions ends
 };
 
 inline constexpr double kNoOpinion = std::numeric_limits<double>::infinity();
 
-/// Cuts the mesh along the zeros of the functions (points within a fifth of an edge of it are taken as on it) and gives the triangles of the two regions
-/// by sign. Returns the region of every triangle of the changed mesh.
+/// Cuts the mesh along the zeros of the functions, in their order, and gives the triangles of the two regions by sign. Points within a fifth of an edge of
+/// a border are put on it. A border that ends on a CAD vertex goes there, one that ends on a CAD edge where another has ended before goes where that one did
+/// after its cut. Returns the region of every triangle of the changed mesh.
 std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_region, const std::vector<BorderFunction>& borders, const Monitor& monitor);
 
 /// Splits surface edges inside a chart whose two ends the charts tie to one line: such an edge, and the triangles beside it, would have no room in

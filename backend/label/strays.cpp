@@ -18,7 +18,7 @@ constexpr double kStrayShare = 0.02, kStrayArea = 4;
 class Strays {
  public:
   Strays(const TetMesh& mesh, Labelling& labelling, const Monitor& monitor)
-      : mesh_(mesh), labels_(labelling.label), monitor_(monitor), neighbours_(triangle_neighbours(mesh.triangles)) {
+      : mesh_(mesh), frame_(labelling.frame), labels_(labelling.label), monitor_(monitor), neighbours_(triangle_neighbours(mesh.triangles)) {
     for (const Vec3& p : mesh.points) points_.push_back(labelling.frame * p);
     for (const Triangle& t : mesh.triangles) {
       edge_ += (points_[t[0]] - points_[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
@@ -82,17 +82,10 @@ class Strays {
     return std::max_element(border.begin(), border.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
   }
 
-  double violations() const {
-    std::vector<int> chart_of(labels_.size()), label;
-    const std::vector<Chart> charts = find_charts(mesh_.triangles, labels_);
-    for (std::size_t c = 0; c < charts.size(); ++c) {
-      label.push_back(labels_[charts[c].triangles.front()]);
-      for (int t : charts[c].triangles) chart_of[t] = static_cast<int>(c);
-    }
-    return find_violations(build_region_graph(mesh_, chart_of), points_, label, 0.75 * edge_).score;
-  }
+  double violations() const { return find_violations(mesh_, frame_, labels_).score; }
 
   const TetMesh& mesh_;
+  const Mat3& frame_;
   std::vector<int>& labels_;
   const Monitor& monitor_;
   std::vector<std::array<int, 3>> neighbours_;

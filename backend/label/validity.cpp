@@ -285,24 +285,26 @@ class ViolationFinder::Check {
     return dart % 2 == 0 ? course.front() : course.back();
   }
 
-  // Along the darts [first, last) of a loop.
+  // Along the darts [first, last) of a loop. To blame is what lies beside the boundary where it goes back.
   void count_reversals(const std::vector<int>& loop, std::size_t first, std::size_t last, int axis, double sign) {
     double extreme = sign * value_at(loop[first], axis);
     bool back = false;
+    std::size_t turn = first, at = first;
     const auto pass = [&](double value) {
       const double x = sign * value;
       if (x > extreme) {
         extreme = x;
         back = false;
+        turn = at;
       } else if (!back && extreme - x > f_.noise_) {
         ++result_.turning_points;
-        blame(loop[first]);
+        for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
         back = true;
       }
     };
-    for (std::size_t i = first; i < last; ++i) {
-      const auto& course = f_.course_[loop[i] / 2][axis];
-      if (loop[i] % 2 == 0) {
+    for (; at < last; ++at) {
+      const auto& course = f_.course_[loop[at] / 2][axis];
+      if (loop[at] % 2 == 0) {
         std::for_each(course.begin(), course.end(), pass);
       } else {
         std::for_each(course.rbegin(), course.rend(), pass);
@@ -335,6 +337,20 @@ double ViolationFinder::score(const std::vector<int>& region_label) const { retu
 
 Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise) {
   return ViolationFinder(graph, points, noise).find(region_label);
+}
+
+Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
+  std::vector<int> chart_of(labels.size()), label;
+  const std::vector<Chart> charts = find_charts(mesh.triangles, labels);
+  for (std::size_t c = 0; c < charts.size(); ++c) {
+    label.push_back(labels[charts[c].triangles.front()]);
+    for (int t : charts[c].triangles) chart_of[t] = static_cast<int>(c);
+  }
+  std::vector<Vec3> points;
+  for (const Vec3& p : mesh.points) points.push_back(frame * p);
+  double edge = 0;
+  for (const Triangle& t : mesh.triangles) edge += (points[t[0]] - points[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
+  return find_violations(build_region_graph(mesh, chart_of), points, label, 0.75 * edge);
 }
 
 }  // namespace polycube

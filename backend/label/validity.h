@@ -39,4 +39,8 @@ class ViolationFinder {
 /// The same for one labelling.
 Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise);
 
+/// Of labels per triangle: their charts are the regions. `frame` takes the mesh to the frame of the labels; reversals below three quarters of a mean edge do
+/// not count.
+Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
+
 }  // namespace polycube

@@ -51,5 +51,16 @@ TEST(TetEditor, TellsWhichPointsWouldInvert) {
   EXPECT_FALSE(editor.keeps_volumes(0, 13, mesh.points[13] + Vec3(5, 0, 0)));
 }
 
+TEST(TetEditor, MovesNodesAsFarAsTheTetsBear) {
+  TetMesh mesh = tet_grid(2, 2, 2);
+  TetEditor editor(mesh);
+  const Vec3 before = mesh.points[13];
+  EXPECT_FALSE(editor.move(13, before + Vec3(0.95, 0, 0)));
+  EXPECT_EQ(mesh.points[13], before);
+  EXPECT_TRUE(editor.move(13, before + Vec3(0.2, 0, 0)));
+  EXPECT_EQ(mesh.points[13], Vec3(before + Vec3(0.2, 0, 0)));
+  EXPECT_NEAR(volume(mesh), 8, 1e-12);
+}
+
 }  // namespace
 }  // namespace polycube

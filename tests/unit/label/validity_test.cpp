@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "core/charts.h"
 
@@ -113,6 +114,24 @@ TEST(Validity, ABoundaryThatGoesDownAndUpAgainHasATurningPoint) {
   }
   ASSERT_EQ(changed, 3);
   EXPECT_GT(violations(v, wrong).turning_points, 0);
+}
+
+TEST(Validity, AllAlongTheWayBackIsToBlameForATurningPoint) {
+  // The same U with one arm longer, so that it is clear which way its boundary should go.
+  const Voxels v = voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 0, 1}, {2, 0, 2}});
+  std::vector<int> wrong = v.label;
+  const RegionGraph g = build_region_graph(v.mesh, v.region);
+  std::set<int> inner;
+  for (std::size_t r = 0; r < wrong.size(); ++r) {
+    Vec3 centre = Vec3::Zero();
+    for (int n : v.mesh.triangles[g.regions[r].triangles[0]]) centre += v.mesh.points[n] / 3;
+    if (centre[0] < 0.9 || centre[0] > 2.1 || centre[2] < 0.9 || wrong[r] == 2 || wrong[r] == 3) continue;
+    wrong[r] = 0;
+    inner.insert(static_cast<int>(r));
+  }
+  const Violations found = violations(v, wrong);
+  EXPECT_GT(found.turning_points, 0);
+  for (int r : inner) EXPECT_TRUE(std::binary_search(found.regions.begin(), found.regions.end(), r)) << r;
 }
 
 TEST(RegionGraph, ArcsAndJunctionsOfACube) {

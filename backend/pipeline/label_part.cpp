@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "label/choice.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "tet/tet.h"
@@ -38,9 +39,13 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   label_options.frame_given = true;
   label_options.frame = pose.frame;
   if (options.threads > 0) label_options.threads = options.threads;
-  part.labelling = label(pose.model, part.tets, label_options, monitor, &part.label_report);
-  part.features = find_features(pose.model, part.tets, part.labelling,
-                                smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces), monitor);
+  const std::vector<char> left_out = smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
+  LabelChoice choice(pose.model, part.tets, label_options, left_out, monitor);
+  Labelled best = choice.labelled(choice.order().front());
+  part.tets = std::move(best.mesh);
+  part.labelling = std::move(best.labelling);
+  part.label_report = best.report;
+  part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
   book("label");
   if (until == Until::kMap) {
     DeformOptions deform_options;

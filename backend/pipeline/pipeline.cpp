@@ -17,6 +17,7 @@
 #include "fem/fem.h"
 #include "fit/fit.h"
 #include "hex/hex.h"
+#include "label/choice.h"
 #include "label/features.h"
 #include "label/label.h"
 #include "pad/associate.h"
@@ -33,8 +34,8 @@
 namespace polycube {
 namespace {
 
-// Of LabelOptions: a quarter of a cylinder keeps one label.
-constexpr double kFilletsWhole = 0.96;
+// Ways to label the part that are tried on one grid.
+constexpr std::size_t kLabellings = 4;
 // Good enough to stop looking for a better candidate.
 constexpr double kGoodScaledJacobian = 0.2;
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
@@ -63,12 +64,16 @@ constexpr double kCoarsest = 1e-6;
 /// One way through the stages after tet; the pipeline tries them in order.
 struct Candidate {
   std::string name;
-  double strictness = 100;    // of LabelOptions
   double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path either
   bool features = true;       // feature charts at all
   double refine = 1;          // on the number of cells along an edge
   double tet_size = 1;        // on the size of the tets
-  double widest_bend = LabelOptions{}.widest_bend;
+  LabelVariant labels{};
+};
+
+struct Tets {
+  TetMesh mesh;
+  std::optional<StageFailed> failure;
 };
 
 /// What the stages up to the blocks make of a candidate; shared by all that differ only afterwards.
@@ -80,34 +85,28 @@ struct Structure {
   std::optional<StageFailed> failure;
 };
 
-/// Those that keep every CAD edge.
-std::vector<Candidate> candidates(const MeshOptions& options) {
-  const Candidate halved{"all CAD edges"};
-  Candidate whole = halved;
-  whole.name += ", fillets in one chart";
-  whole.widest_bend = kFilletsWhole;
+/// Those that keep every CAD edge. `labels`: the ways to label the part, best first.
+std::vector<Candidate> candidates(const MeshOptions& options, std::vector<LabelVariant> labels) {
+  labels.resize(std::min(labels.size(), kLabellings));
   std::vector<Candidate> list;
-  const auto add = [&](const char* what, const auto& change) {
-    for (Candidate c : {halved, whole}) {
-      c.name += what;
-      change(c);
-      list.push_back(c);
+  const auto add = [&](const std::string& what, std::size_t labellings, double refine, double tet_size) {
+    for (std::size_t i = 0; i < std::min(labellings, labels.size()); ++i) {
+      list.push_back({"all CAD edges" + what + (i > 0 ? ", labels " + std::to_string(i + 1) : ""), 0, true, refine, tet_size, labels[i]});
     }
   };
-  add("", [](Candidate&) {});
-  add(", strict labels", [](Candidate& c) { c.strictness = 1000; });
+  add("", labels.size(), 1, 1);
   // Whether a thin strip gets one cell or two can decide over the whole mesh.
-  if (!options.coarsest) add(", finer", [](Candidate& c) { c.refine = 1.25; });
+  if (!options.coarsest) add(", finer", 2, 1.25, 1);
   // Another tet mesh gives a slightly other map, and with it other strips.
-  add(", other tets", [](Candidate& c) { c.tet_size = 0.8; });
+  add(", other tets", 2, 1, 0.8);
   return list;
 }
 
 /// Better than nothing, for a look at volumes and modes.
 std::vector<Candidate> last_candidates() {
-  return {{"sharp CAD edges, no feature charts", 100, std::numbers::pi / 18, false},
-          {"no CAD edges", 100, kNoEdge, false},
-          {"no CAD edges, other tets", 100, kNoEdge, false, 1, 0.8}};
+  return {{"sharp CAD edges, no feature charts", std::numbers::pi / 18, false},
+          {"no CAD edges", kNoEdge, false},
+          {"no CAD edges, other tets", kNoEdge, false, 1, 0.8}};
 }
 
 /// A candidate whose fit left inverted cells.
@@ -126,7 +125,7 @@ struct Unfinished {
 class Run {
  private:
   template <class Work>
-  auto stage(const std::string& name, Work work) {
+  decltype(auto) stage(const std::string& name, Work work) {
     monitor_.progress(name, 0);
     const auto start = Monitor::Clock::now();
     struct Book {
@@ -164,9 +163,8 @@ class Run {
       }
       return best && good_enough(*best);
     };
-    for (const Candidate& c : candidates(options_)) {
+    for (const Candidate& c : candidates(options_, label_order())) {
       if (fits_left_ <= (best ? kReservedFits / 2 : kReservedFits)) break;
-      if (c.strictness > LabelOptions{}.strictness && flawless_.count(c.widest_bend) > 0) continue;
       const auto work = [&] {
         MeshResult result = attempt(c, !best && !failure, options_.divisions);
         retry_padded(c, result);
@@ -222,17 +220,58 @@ class Run {
   }
 
   const TetMesh& tets(double factor) {
-    const auto known = tets_.find(factor);
-    if (known != tets_.end()) return known->second;
-    TetOptions tet;
-    // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-    tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
-    return tets_.emplace(factor, stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); })).first->second;
+    const auto [it, fresh] = tets_.try_emplace(factor);
+    Tets& made = it->second;
+    if (fresh) {
+      TetOptions tet;
+      // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
+      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
+      try {
+        made.mesh = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
+      } catch (const StageFailed& e) {
+        made.failure = e;
+      }
+    }
+    if (made.failure) throw *made.failure;
+    return made.mesh;
+  }
+
+  // Ways to label the part, best first; as they come where there is no tet mesh to judge them on.
+  std::vector<LabelVariant> label_order() {
+    try {
+      LabelChoice& choice = labellings(1);
+      return stage("label", [&] { return choice.order(); });
+    } catch (const StageFailed&) {
+      return {LabelVariant{}};
+    }
+  }
+
+  // Of the labellings of a tet mesh.
+  LabelChoice& labellings(double tet_size) {
+    const auto found = labellings_.find(tet_size);
+    if (found != labellings_.end()) return found->second;
+    const TetMesh& mesh = tets(tet_size);
+    pose_.check_labels(mesh, options_.labels);
+    LabelOptions label_options;
+    label_options.fidelity = options_.fidelity;
+    label_options.compactness = options_.compactness;
+    label_options.face_labels = options_.labels;
+    label_options.frame_given = true;
+    label_options.frame = pose_.frame;
+    if (options_.threads > 0) label_options.threads = options_.threads;
+    return labellings_.try_emplace(tet_size, model_, mesh, label_options, ignored_, monitor_).first->second;
+  }
+
+  // What the search for labels begins with, for fillets treated alike.
+  static LabelVariant plain(LabelVariant v) {
+    LabelVariant result;
+    result.widest_bend = v.widest_bend;
+    return result;
   }
 
   // Labels, map and blocks of a candidate; made once for all candidates that agree so far.
   const Structure& structure(const Candidate& c) {
-    const auto [it, fresh] = structures_.try_emplace({c.strictness, c.min_bend, c.features, c.tet_size, c.widest_bend});
+    const auto [it, fresh] = structures_.try_emplace({c.labels.strictness, c.labels.widest_bend, c.labels.narrow_regions, c.min_bend, c.features, c.tet_size});
     Structure& s = it->second;
     if (fresh) {
       try {
@@ -246,20 +285,12 @@ class Run {
   }
 
   void build(const Candidate& c, Structure& s) {
-    s.tets = tets(c.tet_size);  // labelling cuts it
-    pose_.check_labels(s.tets, options_.labels);
-    LabelOptions label_options;
-    label_options.fidelity = options_.fidelity;
-    label_options.compactness = options_.compactness;
-    label_options.strictness = c.strictness;
-    label_options.widest_bend = c.widest_bend;
-    label_options.face_labels = options_.labels;
-    label_options.frame_given = true;
-    label_options.frame = pose_.frame;
-    if (options_.threads > 0) label_options.threads = options_.threads;
-    LabelReport labels;
-    const Labelling labelling = stage("label", [&] { return label(model_, s.tets, label_options, monitor_, &labels); });
-    if (labels.valid() && labels.turning_points + labels.bad_turns == 0) flawless_.insert(c.widest_bend);
+    LabelChoice& choice = labellings(c.tet_size);
+    // Where nothing is wrong, stricter labels would be the same.
+    if (!(c.labels == plain(c.labels)) && stage("label", [&] { return choice.labelled(plain(c.labels)).faults; }) == 0) throw StageFailed("label", "the same as one before");
+    const Labelled& labelled = stage("label", [&]() -> const Labelled& { return choice.labelled(c.labels); });
+    const Labelling& labelling = labelled.labelling;
+    s.tets = labelled.mesh;
     s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, left_out(c), monitor_); });
     if (!c.features) s.features.charts.clear();
     std::vector<std::vector<int>> plan{labelling.label};
@@ -548,12 +579,12 @@ class Run {
   const MeshOptions& options_;
   const Monitor& monitor_;
   double size_;
-  std::map<double, TetMesh> tets_;  // by factor on their size
+  std::map<double, Tets> tets_;  // by factor on their size
   int fits_left_ = kMaxFits;
   std::vector<char> ignored_;  // per CAD edge: the user does without it
   std::vector<Unfinished> unfinished_;
-  std::set<double> flawless_;  // widest bends with whose labels nothing is wrong: stricter ones would be the same
-  std::map<std::tuple<double, double, bool, double, double>, Structure> structures_;
+  std::map<double, LabelChoice> labellings_;  // by factor on the size of the tets
+  std::map<std::tuple<double, double, bool, double, bool, double>, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };

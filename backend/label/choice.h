@@ -1,0 +1,49 @@
+// Several labellings of one part, ranked by what can be said of them before a map is made.
+#pragma once
+
+#include <list>
+
+#include "label/features.h"
+#include "label/label.h"
+
+namespace polycube {
+
+/// What the labellings tried differ in; fields of LabelOptions.
+struct LabelVariant {
+  double strictness = LabelOptions{}.strictness;
+  double widest_bend = LabelOptions{}.widest_bend;
+  bool narrow_regions = false;
+  friend bool operator==(const LabelVariant&, const LabelVariant&) = default;
+};
+
+struct Labelled {
+  LabelVariant variant;
+  TetMesh mesh;             ///< cut along the borders of its labels
+  Labelling labelling;
+  LabelReport report;
+  double faults = 0;        ///< Violations::score
+  int lost_features = 0;    ///< CAD edges without feature charts
+};
+
+/// The labellings of one tet mesh, each made when it is first asked for.
+class LabelChoice {
+ public:
+  /// `left_out` as for find_features. Keeps references to model, mesh and monitor.
+  LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<char> left_out, const Monitor& monitor);
+
+  /// All variants, those to try first in front. One without faults ends the search; the same with the other widest_bend follows, then the others as they
+  /// are listed. Where each has faults, the least faulty come first, then those with most features, then those nearest to the normals.
+  const std::vector<LabelVariant>& order();
+  const Labelled& labelled(const LabelVariant& variant);
+
+ private:
+  const CadModel& model_;
+  const TetMesh& mesh_;
+  LabelOptions options_;
+  std::vector<char> left_out_;
+  const Monitor& monitor_;
+  std::list<Labelled> made_;  // references stay valid
+  std::vector<LabelVariant> order_;
+};
+
+}  // namespace polycube

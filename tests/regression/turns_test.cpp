@@ -1,9 +1,15 @@
 // However a part is turned, it gets the same labels: as many charts, and every CAD face the same directions as seen from the part.
+// For CAD files: POLYCUBE_TURN_PARTS=A.step:B.step test_regression --gtest_filter='*Turns*'.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <random>
+#include <sstream>
 
 #include "core/charts.h"
 #include "pipeline/inspect.h"
@@ -36,10 +42,28 @@ std::map<std::pair<int, std::array<int, 3>>, double> areas(const LabelledPart& p
   return found;
 }
 
-class Turns : public testing::TestWithParam<std::pair<const char*, std::string>> {};
+struct Part {
+  std::string name;
+  std::function<CadModel()> model;
+};
+
+std::vector<Part> parts() {
+  const auto made = [](const char* name, const std::string& brep) { return Part{name, [brep] { return CadModel::from_brep(brep); }}; };
+  std::vector<Part> list{made("Notch", shapes::notched_box(10)), made("Bore", shapes::plate_with_hole(30, 20, 6, 4)), made("Chamfer", shapes::chamfered_box(10, 3))};
+  const char* given = std::getenv("POLYCUBE_TURN_PARTS");
+  std::istringstream files(given ? given : "");
+  for (std::string file; std::getline(files, file, ':');) {
+    std::string name = std::filesystem::path(file).stem().string();
+    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    list.push_back({name, [file] { return CadModel::read(file); }});
+  }
+  return list;
+}
+
+class Turns : public testing::TestWithParam<Part> {};
 
 TEST_P(Turns, ChangeNoLabels) {
-  const CadModel model = CadModel::from_brep(GetParam().second);
+  const CadModel model = GetParam().model();
   const LabelledPart base = label_part(model, MeshOptions(), Monitor(), Until::kLabels);
   const int charts = inspect(base).charts;
   const auto expected = areas(base, Mat3::Identity());
@@ -60,10 +84,7 @@ TEST_P(Turns, ChangeNoLabels) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Made, Turns,
-                         testing::Values(std::pair{"Notch", shapes::notched_box(10)}, std::pair{"Bore", shapes::plate_with_hole(30, 20, 6, 4)},
-                                         std::pair{"Chamfer", shapes::chamfered_box(10, 3)}),
-                         [](const auto& part) { return std::string(part.param.first); });
+INSTANTIATE_TEST_SUITE_P(All, Turns, testing::ValuesIn(parts()), [](const auto& part) { return part.param.name; });
 
 }  // namespace
 }  // namespace polycube

@@ -28,4 +28,9 @@ struct Sector {
 std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association,
                                  const std::vector<char>& wanted);
 
+/// What the corners of hexes at the wanted nodes cost whose two sides are CAD edges with an inner face between them: no move of nodes changes
+/// their angle, and no sector tells of them.
+double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const HexTopology& topology,
+                         const std::vector<char>& wanted);
+
 }  // namespace polycube

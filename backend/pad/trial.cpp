@@ -113,7 +113,7 @@ double total_cost(const CadModel& model, const PaddedMesh& padded, const std::ve
     i = j;
   }
   for (const Sector& s : find_sectors(model, mesh, association, near)) cost += angle_cost(s.quads, s.angle);
-  return cost;
+  return cost + inner_corner_cost(model, mesh, association, topology, near);
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tuple>
 
+#include "core/hexahedron.h"
 #include "pad/angles.h"
 #include "pad/pad.h"
 #include "support/grids.h"
@@ -55,6 +57,39 @@ TEST(PadRings, AReentrantCornerHasThreeQuarters) {
     ++reentrant;
   }
   EXPECT_EQ(reentrant, 2);
+}
+
+TEST(PadRings, AnInnerFaceBetweenTwoPiecesOfOneCadEdgeIsFlatInBothItsCells) {
+  Grid grid = box_grid(2);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  const std::vector<char> all(grid.mesh.points.size(), 1);
+  const HexTopology topology = build_topology(grid.mesh, grid.association.quads);
+  const auto cost = [&] { return inner_corner_cost(model, grid.mesh, grid.association, topology, all); };
+  EXPECT_EQ(cost(), 0);
+  // A corner of a hex at the middle of a face, its two edges on the face and the one that leads inside.
+  int hex = -1, corner = -1;
+  for (int h = 0; h < static_cast<int>(grid.mesh.hexes.size()); ++h) {
+    for (int c = 0; c < 8; ++c) {
+      const Hex& nodes = grid.mesh.hexes[h];
+      const auto& next = kCornerNeighbours[c];
+      if (grid.association.point_cad[nodes[c]].dim == 2 && grid.association.point_cad[nodes[next[2]]].dim == 3) std::tie(hex, corner) = std::pair(h, c);
+    }
+  }
+  ASSERT_GE(hex, 0);
+  const Hex& nodes = grid.mesh.hexes[hex];
+  const int node = nodes[corner];
+  const auto lay_edge = [&](int from, int to) {
+    grid.association.point_cad[node] = {1, 1};
+    // Where the CAD edge goes on straight.
+    grid.mesh.points[node] = (model.vertex(model.edge(1).vertices[0]) + model.vertex(model.edge(1).vertices[1])) / 2;
+    for (const auto& [k, vertex] : {std::pair(from, 0), std::pair(to, 1)}) grid.mesh.points[nodes[kCornerNeighbours[corner][k]]] = model.vertex(model.edge(1).vertices[vertex]);
+    grid.association.segments = {{nodes[kCornerNeighbours[corner][from]], node}, {node, nodes[kCornerNeighbours[corner][to]]}};
+    grid.association.segment_edge = {1, 1};
+  };
+  lay_edge(0, 1);
+  EXPECT_EQ(cost(), 0);  // the sector tells of it
+  lay_edge(0, 2);
+  EXPECT_GE(cost(), 2 * 1000);  // two cells
 }
 
 TEST(PadRings, ASecondCellInACuspIsWorseThanAFlatCorner) {

@@ -137,11 +137,37 @@ Vec3 CadModel::face_normal(int id, const Vec2& uv) const {
   return face.sign * surface_normal(face, uv);
 }
 
+Mat3 CadModel::face_bend(int id, const Vec2& uv) const {
+  const FaceGeometry& face = shape_->face(id);
+  gp_Pnt p;
+  gp_Vec d1u, d1v, d2u, d2v, d2uv;
+  face.surface->D2(uv[0], uv[1], p, d1u, d1v, d2u, d2v, d2uv);
+  const Vec3 u = to_vec(d1u), v = to_vec(d1v);
+  const Vec3 normal = u.cross(v);
+  if (!(normal.norm() > 1e-9 * std::max(u.squaredNorm(), v.squaredNorm()))) return Mat3::Zero();
+  // Rows that take a tangent vector to its u and v.
+  const Vec3 to_u = v.cross(normal) / normal.squaredNorm(), to_v = normal.cross(u) / normal.squaredNorm();
+  const Vec3 n = face.sign * normal.normalized();
+  return n.dot(to_vec(d2u)) * to_u * to_u.transpose() + n.dot(to_vec(d2v)) * to_v * to_v.transpose() +
+         n.dot(to_vec(d2uv)) * (to_u * to_v.transpose() + to_v * to_u.transpose());
+}
+
 Vec3 CadModel::face_point(int id, const Vec2& uv) const { return to_vec(shape_->face(id).surface->Value(uv[0], uv[1])); }
 
 Vec3 CadModel::edge_point(int id, double t) const {
   const EdgeGeometry& edge = shape_->edge(id);
   return edge.curve.IsNull() ? vertex(this->edge(id).vertices[0]) : to_vec(edge.curve->Value(t));
+}
+
+Vec3 CadModel::edge_bend(int id, double t) const {
+  const EdgeGeometry& edge = shape_->edge(id);
+  if (edge.curve.IsNull()) return Vec3::Zero();
+  gp_Pnt point;
+  gp_Vec d1, d2;
+  edge.curve->D2(t, point, d1, d2);
+  if (!(d1.Magnitude() > 1e-12 * (1 + d2.Magnitude()))) return Vec3::Zero();
+  const Vec3 slope = to_vec(d1), second = to_vec(d2);
+  return (second - slope * (slope.dot(second) / slope.squaredNorm())) / slope.squaredNorm();
 }
 
 Vec3 CadModel::edge_tangent(int id, double t) const {

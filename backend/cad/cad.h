@@ -81,9 +81,12 @@ class CadModel {
   EdgePoint project_to_edge(int id, const Vec3& p, const double* seed = nullptr) const;
   /// Unit normal pointing out of the solid.
   Vec3 face_normal(int id, const Vec2& uv) const;
+  /// How the surface bends: a step d in its tangent plane leads to d + (d . bend d) / 2 normals, to second order. Zero where it has no tangent plane.
+  Mat3 face_bend(int id, const Vec2& uv) const;
   Vec3 face_point(int id, const Vec2& uv) const;
   Vec3 edge_point(int id, double t) const;
   Vec3 edge_tangent(int id, double t) const;                 ///< unit, start to end
+  Vec3 edge_bend(int id, double t) const;                    ///< curvature vector, 1 / mm, towards the centre of curvature
   std::array<double, 2> edge_range(int id) const;            ///< parameters of start and end
   std::vector<Vec3> edge_samples(int id, int count) const;   ///< count >= 2 points evenly by parameter, both ends included
 

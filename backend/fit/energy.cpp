@@ -19,6 +19,7 @@ constexpr double kWideTurn = std::numbers::pi / 12;  // a mesh edge along which 
 constexpr double kTurnWeight = 4;                   // cells share a mesh edge
 constexpr int kFloorPower = 16;
 constexpr int kMemory = 8;            // pairs L-BFGS remembers
+constexpr double kFarTurn = 0.7;      // radians: an entity that turns by this under a node is no longer known to second order
 constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
 
 // Axis of each of the three edges of a corner, in the order of kCornerNeighbours.
@@ -164,7 +165,7 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& 
 }
 
 double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                         const std::vector<Vec3>& points, std::vector<Vec3>& gradient) {
+                         const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient) {
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk);
   for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
@@ -202,7 +203,7 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
         if (at >= 0)
           sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
       }
-      gradient[i] = entities_.along(v, sum);
+      gradient[i] = entities_.along(v, sum, steps[i]);
     }
   });
   const int power = std::max(2, energy.power);
@@ -235,9 +236,10 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) sum += std::cbrt(targets[graph_.corners[k] / 8].prod());
     sizes[i] = sum / std::max(1, graph_.first[v + 1] - graph_.first[v]);
   }
-  std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points;
+  const std::vector<Vec3> start = mesh_.points;
+  std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points, steps(count, Vec3::Zero()), trial_steps(count);
   DescentResult result;
-  result.start_energy = result.energy = evaluate(energy, targets, region, turns, mesh_.points, gradient);
+  result.start_energy = result.energy = evaluate(energy, targets, region, turns, mesh_.points, steps, gradient);
   History history(sizes, threads_);
   while (result.energy < kInfinity && result.iterations < max_iterations) {
     monitor_.check();
@@ -259,8 +261,11 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     }
     double step = 1, value = kInfinity;
     for (int attempt = 0; attempt < 14; ++attempt, step /= 2) {
-      for (std::size_t i = 0; i < count; ++i) moved[region.nodes[i]] = mesh_.points[region.nodes[i]] + step * direction[i];
-      value = evaluate(energy, targets, region, turns, moved, trial_gradient);
+      for (std::size_t i = 0; i < count; ++i) {
+        trial_steps[i] = steps[i] + step * direction[i];
+        moved[region.nodes[i]] = start[region.nodes[i]] + entities_.bent(region.nodes[i], trial_steps[i]);
+      }
+      value = evaluate(energy, targets, region, turns, moved, trial_steps, trial_gradient);
       if (value <= result.energy + 1e-4 * step * slope) break;
       value = kInfinity;
     }
@@ -278,10 +283,14 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
       change[i] = trial_gradient[i] - gradient[i];
     }
     gradient.swap(trial_gradient);
+    steps.swap(trial_steps);
     history.add_pair(std::move(direction), std::move(change));
     const double gain = result.energy - value;
     result.energy = value;
     if (gain < 1e-6 * value) break;
+    bool far = false;
+    for (std::size_t i = 0; i < count && !far; ++i) far = entities_.turned(region.nodes[i], steps[i]) > kFarTurn;
+    if (far) break;
   }
   for (int h : region.hexes) slot_[h] = -1;
   for (int v : region.nodes) node_slot_[v] = -1;

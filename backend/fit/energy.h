@@ -54,8 +54,8 @@ struct DescentResult {
   int iterations = 0;
 };
 
-/// L-BFGS with nodes moving in the tangent spaces noted by `entities`; nodes leave their entities by the curvature, project them
-/// afterwards.
+/// L-BFGS with nodes moving along the tangent spaces noted by `entities` and bent with them to second order; project them afterwards. It ends
+/// early where an entity turns much under a node.
 class Descent {
  public:
   Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor);
@@ -67,7 +67,7 @@ class Descent {
 
  private:
   double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                  const std::vector<Vec3>& points, std::vector<Vec3>& gradient);
+                  const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient);
 
   HexMesh& mesh_;
   const HexGraph& graph_;

@@ -13,6 +13,7 @@ Entities::Entities(const CadModel& model, const Association& association, int th
   seeded_.assign(nodes, 0);
   faces_.assign(nodes, 0);
   frames_.assign(nodes, Vec3::Zero());
+  bends_.assign(nodes, Mat3::Zero());
   for (std::size_t v = 0; v < nodes; ++v) {
     if (association.point_cad[v].dim < 3) boundary_.push_back(static_cast<int>(v));
   }
@@ -27,6 +28,7 @@ Vec3 Entities::project(int node, const Vec3& p) {
     const EdgePoint found = model_.project_to_edge(entity.id, p, seeded_[node] ? &seed : nullptr);
     set_edge_parameter(node, found.t);
     frames_[node] = model_.edge_tangent(entity.id, found.t);
+    bends_[node].col(0) = model_.edge_bend(entity.id, found.t);
     return found.point;
   }
   FacePoint best;
@@ -43,6 +45,7 @@ Vec3 Entities::project(int node, const Vec3& p) {
   faces_[node] = face;
   seeds_[node] = best.uv;
   frames_[node] = model_.face_normal(face, best.uv);
+  bends_[node] = model_.face_bend(face, best.uv);
   return best.point;
 }
 
@@ -63,17 +66,41 @@ double Entities::distance(int node, const Vec3& p) const {
   return entity.dim == 2 ? least : 0;
 }
 
-Vec3 Entities::along(int node, const Vec3& direction) const {
+Vec3 Entities::bent(int node, const Vec3& step) const {
+  switch (dimension(node)) {
+    case 0:
+      return Vec3::Zero();
+    case 1:
+      return step + step.squaredNorm() / 2 * bends_[node].col(0);
+    case 2:
+      return step + step.dot(bends_[node] * step) / 2 * frames_[node];
+    default:
+      return step;
+  }
+}
+
+Vec3 Entities::along(int node, const Vec3& gradient, const Vec3& step) const {
   const Vec3& f = frames_[node];
   switch (dimension(node)) {
     case 0:
       return Vec3::Zero();
     case 1:
-      return f * f.dot(direction);
+      return f * f.dot(gradient) + step * bends_[node].col(0).dot(gradient);
     case 2:
-      return direction - f * f.dot(direction);
+      return gradient + f.dot(gradient) * (bends_[node] * step - f);
     default:
-      return direction;
+      return gradient;
+  }
+}
+
+double Entities::turned(int node, const Vec3& step) const {
+  switch (dimension(node)) {
+    case 1:
+      return bends_[node].col(0).norm() * step.norm();
+    case 2:
+      return (bends_[node] * step).norm();
+    default:
+      return 0;
   }
 }
 

@@ -28,8 +28,12 @@ class Entities {
 
   int dimension(int node) const { return association_.point_cad[node].dim; }
   const CadRef& cad(int node) const { return association_.point_cad[node]; }
-  /// The part of `direction` along the entity at the node's last projection.
-  Vec3 along(int node, const Vec3& direction) const;
+  /// Where a step along the entity from the node's last projection leads, bent with it to second order.
+  Vec3 bent(int node, const Vec3& step) const;
+  /// A gradient by the node's place, taken at bent(step), as gradient by the step: along the entity at the node's last projection.
+  Vec3 along(int node, const Vec3& gradient, const Vec3& step) const;
+  /// The angle by which the entity turns over a step, radians.
+  double turned(int node, const Vec3& step) const;
   /// Boundary nodes, ascending.
   const std::vector<int>& boundary() const { return boundary_; }
   /// CAD face a patch node stands on, 0 for others.
@@ -44,6 +48,7 @@ class Entities {
   std::vector<char> seeded_;
   std::vector<int> faces_;
   std::vector<Vec3> frames_;  // unit normal of a face node, unit tangent of an edge node
+  std::vector<Mat3> bends_;   // of a face node; the first column is that of an edge node
 };
 
 }  // namespace polycube

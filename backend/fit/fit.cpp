@@ -64,6 +64,7 @@ class Fitting {
       smooth(region);
       untangle(region, 50);
     }
+    restore();
     monitor_.progress("fit", 0.5);
     if (score_.inverted == 0) {
       square_up();
@@ -105,6 +106,12 @@ class Fitting {
   void restore() {
     mesh_.points = best_;
     entities_.project(mesh_.points);
+  }
+
+  // The same where only nodes of the region have moved since.
+  void restore(const Region& region) {
+    for (int v : region.nodes) mesh_.points[v] = best_[v];
+    entities_.project(mesh_.points, &region.nodes);
   }
 
   // The cells with a scaled Jacobian of at most `limit` and some layers round them; nodes on the rim stay.
@@ -194,15 +201,16 @@ class Fitting {
     }
   }
 
-  // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one.
+  // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as before.
   bool square_up(const Region& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
-    restore();
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
     const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, region, chains_.turns(mesh_.points, entities_), iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
-    entities_.project(mesh_.points);
+    entities_.project(mesh_.points, &region.nodes);
     monitor_.check();
-    return note_if_best();
+    if (note_if_best()) return true;
+    restore(region);
+    return false;
   }
 
   // The whole mesh towards right angles.
@@ -213,25 +221,25 @@ class Fitting {
     }
   }
 
-  // The worst cells with their surroundings, by higher and higher powers.
+  // The worst cells with their surroundings, by higher and higher powers: each as long as it brings something.
   void raise_worst() {
-    int failures = 0;
-    for (int round = 0; round < options_.max_rounds && failures < 4 && score_.worst < goal(); ++round) {
-      restore();
+    constexpr int kStages = 4, kHighest = 2;
+    constexpr double kProgress = 0.005;
+    for (int round = 0, stage = 0; round < options_.max_rounds && stage < kStages && score_.worst < goal(); ++round) {
       const double before = score_.worst;
-      square_up(around(std::min(goal(), before + 0.15), 2 + failures), 4 << std::min(failures, 2), 30);
-      failures = score_.worst > before + 0.005 ? 0 : failures + 1;
+      square_up(around(std::min(goal(), before + 0.15), 2 + stage), 4 << std::min(stage, kHighest), 60);
+      if (score_.worst <= before + kProgress) ++stage;
     }
   }
 
-  // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are.
+  // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are. The floor rises with
+  // them.
   void polish() {
-    constexpr double kHeld = 0.98;
+    constexpr double kHeld = 0.98, kFloor = 1.2;
     held_ = kHeld * score_.worst;
-    const double floor = 1.2 * score_.worst;
     double gain = 1;
     for (int round = 0; round < 5 && gain > 1e-3; ++round) {
-      if (!square_up(whole_, 2, 40, &gain, floor)) break;
+      if (!square_up(whole_, 2, 40, &gain, kFloor * score_.worst)) break;
     }
   }
 

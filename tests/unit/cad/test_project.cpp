@@ -8,6 +8,7 @@
 #include <TopoDS_Shape.hxx>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -179,6 +180,27 @@ TEST(Project, TangentsRunFromStartToEnd) {
       EXPECT_EQ(model.edge_samples(e, 5).size(), 5u);
     }
   }
+}
+
+TEST(Project, BendsOfACylinderAndABall) {
+  const double radius = 3;
+  const CadModel cylinder = CadModel::from_brep(shapes::cylinder(radius, 5)), ball = CadModel::from_brep(shapes::sphere(radius));
+  for (int f = 1; f <= cylinder.face_count(); ++f) {
+    const FacePoint foot = cylinder.project_to_face(f, {2, 2.2, 1.3});
+    const bool side = cylinder.face(f).kind == SurfaceKind::kCylinder;
+    const Vec3 across = Vec3::UnitZ().cross(cylinder.face_normal(f, foot.uv));
+    const Mat3 expected = side ? Mat3(-across * across.transpose() / radius) : Mat3(Mat3::Zero());
+    EXPECT_LT((cylinder.face_bend(f, foot.uv) - expected).norm(), 1e-12);
+  }
+  for (int e = 1; e <= cylinder.edge_count(); ++e) {
+    if (cylinder.edge(e).seam) continue;
+    const EdgePoint foot = cylinder.project_to_edge(e, {2, 2.2, 1.3});
+    const Vec3 inward(-foot.point[0], -foot.point[1], 0);
+    EXPECT_LT((cylinder.edge_bend(e, foot.t) - inward / (radius * radius)).norm(), 1e-12);
+  }
+  const FacePoint foot = ball.project_to_face(1, {2, 2.2, 1.3});
+  const Vec3 normal = ball.face_normal(1, foot.uv);
+  EXPECT_LT((ball.face_bend(1, foot.uv) + (Mat3::Identity() - normal * normal.transpose()) / radius).norm(), 1e-12);
 }
 
 TEST(Project, ThreadsGetTheSameAnswers) {

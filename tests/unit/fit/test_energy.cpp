@@ -82,5 +82,30 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
   EXPECT_NEAR(energy(1.25) - energy(0), 8 * std::pow(1.25, 14), 1e-9);
 }
 
+// Steps along curved entities stay on them to third order, and gradients by steps are those of the bent place.
+TEST(Entities, StepsBendWithTheCad) {
+  testing::Grid grid = testing::ball_grid(4);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  Entities entities(model, grid.association, 1);
+  entities.project(grid.mesh.points);
+  int tried = 0;
+  for (int v : entities.boundary()) {
+    const Vec3 place = grid.mesh.points[v];
+    const Vec3 step = entities.along(v, 0.1 * place.norm() * Vec3(0.6, -0.5, 0.3), Vec3::Zero());
+    if (!(step.norm() > 0)) continue;
+    ++tried;
+    EXPECT_LT(entities.distance(v, place + entities.bent(v, step)), 0.1 * entities.distance(v, place + step) + 1e-12);
+    EXPECT_NEAR(entities.turned(v, step), step.norm() / place.norm(), 1e-9);
+    const Vec3 gradient(0.3, 0.8, -0.2);
+    const double small = 1e-6;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 nudge = entities.along(v, small * Vec3::Unit(k), Vec3::Zero());
+      const double slope = gradient.dot(entities.bent(v, step + nudge) - entities.bent(v, step - nudge)) / (2 * small);
+      EXPECT_NEAR(entities.along(v, gradient, step)[k], slope, 1e-7);
+    }
+  }
+  EXPECT_GT(tried, 20);
+}
+
 }  // namespace
 }  // namespace polycube

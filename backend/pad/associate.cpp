@@ -91,7 +91,7 @@ class Associator {
   }
 
   // Edges block each other's way. Those that found none go first the next time (rip up and reroute); the round that loses least counts.
-  Association run() {
+  Association run(std::vector<CrowdedCorner>* crowded) {
     for (int e = 1; e <= model_.edge_count(); ++e) {
       const CadEdge& edge = model_.edge(e);
       if (!edge.seam && !edge.degenerate && !edge.tiny) real_.push_back(e);
@@ -115,6 +115,7 @@ class Associator {
         if (!best || result.lost_edges.size() < best->lost_edges.size()) idle = 0;
         least = cost;
         best = std::move(result);
+        if (crowded) *crowded = crowded_corners();
       }
       if (avoidable == 0) break;
     }
@@ -197,10 +198,6 @@ class Associator {
       if (spokes[i].edge == e && spokes[i].end == end) self = i;
     }
     if (self < 0) return 0;
-    const auto step_of = [&](const Spoke& s) {
-      const auto& nodes = path_[s.edge].nodes;
-      return nodes.size() < 2 ? -1 : s.end == 0 ? nodes[1] : nodes[nodes.size() - 2];
-    };
     int wrong = 0, expected = 0;
     for (int i = 0; i + 1 < count; ++i) {
       expected += spokes[(self + i) % count].quads_to_next;
@@ -219,6 +216,34 @@ class Associator {
       break;
     }
     return kSpokePrice * options_.size * std::min(wrong, 6);
+  }
+
+  // Vertices with lost edges that had no way to leave: fewer quads than edges between two captured edges there.
+  std::vector<CrowdedCorner> crowded_corners() const {
+    std::vector<CrowdedCorner> result;
+    for (int v = 1; v <= model_.vertex_count(); ++v) {
+      const std::vector<Spoke>& spokes = spokes_[v];
+      const int count = static_cast<int>(spokes.size()), node = vertex_node_[v];
+      if (node < 0) continue;
+      for (int i = 0; i < count; ++i) {
+        const int from = step_of(spokes[i]);
+        if (from < 0) continue;
+        int lost = 0;
+        while (lost + 1 < count && step_of(spokes[(i + lost + 1) % count]) < 0) ++lost;
+        const int to = step_of(spokes[(i + lost + 1) % count]);
+        const int quads = from == to ? static_cast<int>(surface_.out[node].size()) : quads_between(node, from, to);
+        if (lost == 0 || quads > lost) continue;
+        result.push_back({node, surface_.left_of(node, from)});
+        break;
+      }
+    }
+    return result;
+  }
+
+  // The node after that of the vertex on the spoke's path, -1 if it has none.
+  int step_of(const Spoke& s) const {
+    const auto& nodes = path_[s.edge].nodes;
+    return nodes.size() < 2 ? -1 : s.end == 0 ? nodes[1] : nodes[nodes.size() - 2];
   }
 
   void place_vertices() {
@@ -630,8 +655,8 @@ class Associator {
 }  // namespace
 
 Association associate(const CadModel& model, const TetMesh& tets, const std::vector<Chart>& charts, const HexBoundary& boundary,
-                      const AssociateOptions& options, const Monitor& monitor) {
-  return Associator(model, tets, charts, boundary, options, monitor).run();
+                      const AssociateOptions& options, const Monitor& monitor, std::vector<CrowdedCorner>* crowded) {
+  return Associator(model, tets, charts, boundary, options, monitor).run(crowded);
 }
 
 }  // namespace polycube

@@ -6,6 +6,7 @@
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "pad/room.h"
 
 namespace polycube {
 
@@ -25,8 +26,10 @@ struct AssociateOptions {
 
 /// Chooses a node for every CAD vertex and a path of mesh edges for every CAD edge with a chain, such that the quads fall into one region per
 /// patch with the topology of the patch. Edges for which that fails are given up (lost_edges) one by one.
+/// `crowded`, if not null, gets the corners at which a CAD edge was lost because its vertex's node has no mesh edge left on that side, one a
+/// vertex, for make_room.
 /// Throws StageFailed("pad", ...) if not even the whole surface as one patch fits, which means the mesh's topology is wrong.
 Association associate(const CadModel& model, const TetMesh& tets, const std::vector<Chart>& charts, const HexBoundary& boundary,
-                      const AssociateOptions& options, const Monitor& monitor);
+                      const AssociateOptions& options, const Monitor& monitor, std::vector<CrowdedCorner>* crowded = nullptr);
 
 }  // namespace polycube

@@ -43,7 +43,7 @@ class Opening {
     return nodes;
   }
 
-  void apply(HexMesh& mesh, Association& association) const;
+  void apply(HexMesh& mesh, Association& association, std::vector<int>* beside) const;
   int face_count() const { return static_cast<int>(faces_.size()); }
 
  private:
@@ -267,7 +267,7 @@ Vec3 Opening::place(const Copy& copy, const std::vector<Vec3>& sums, const std::
   return counts[index] > 0 ? Vec3(x + 2.0 / 3.0 * (sums[index] / counts[index] - x)) : x;
 }
 
-void Opening::apply(HexMesh& mesh, Association& association) const {
+void Opening::apply(HexMesh& mesh, Association& association, std::vector<int>* beside) const {
   const int old_nodes = static_cast<int>(mesh_.points.size()), old_hexes = static_cast<int>(mesh_.hexes.size());
   const auto node_of = [&](int hex, int node) {
     const int copy = copy_at(hex, node);
@@ -336,6 +336,7 @@ void Opening::apply(HexMesh& mesh, Association& association) const {
       const int next = (k + 1) % 4;
       carried.quads.push_back({hex[k], hex[next], hex[next + 4], hex[k + 4]});
       carried.quad_patch.push_back(association_.quad_patch[ends_[4 * i + k].at]);
+      if (beside) beside->push_back(ends_[4 * i + k].at);
     }
   }
   mesh = std::move(result);
@@ -348,13 +349,13 @@ std::vector<int> sheet_obstacles(const HexMesh& mesh, const Association& associa
   return Opening(mesh, association, cut).obstacles();
 }
 
-int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut) {
+int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut, std::vector<int>* beside) {
   const Opening opening(mesh, association, cut);
   if (!opening.obstacles().empty()) throw StageFailed("pad", "a sheet would branch at node " + std::to_string(opening.obstacles()[0]));
   // `opening` reads the mesh it was made from, so the result goes to copies.
   HexMesh opened;
   Association carried;
-  opening.apply(opened, carried);
+  opening.apply(opened, carried, beside);
   mesh = std::move(opened);
   association = std::move(carried);
   return opening.face_count();

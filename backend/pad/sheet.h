@@ -18,7 +18,7 @@ std::vector<int> sheet_obstacles(const HexMesh& mesh, const Association& associa
 /// Opens the mesh along the cut and fills it with one layer of hexes. The outer copies of nodes keep their number, position and CAD entity;
 /// inner copies are appended, a third of a cell inside, and lie inside, on a patch or on the one CAD edge that goes on from there. New
 /// boundary quads belong to the patch of the quad on their inner side. Returns the number of new hexes. Throws StageFailed where
-/// sheet_obstacles is not empty.
-int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut);
+/// sheet_obstacles is not empty. `beside`, if not null, gets the quad on the inner side of each new boundary quad.
+int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut, std::vector<int>* beside = nullptr);
 
 }  // namespace polycube

@@ -56,6 +56,8 @@ constexpr double kNoEdge = 4;
 // along an edge counts with which every CAD edge finds its path.
 constexpr double kCoarse = 1.0 / 25;
 constexpr std::array kFiner{1.25, 1.6, 2.0};
+// Divisions of the grid one after the other at one vertex: for as many CAD edges more than a corner of the grid has.
+constexpr int kRoomRounds = 3;
 // The last candidates may always try this often.
 constexpr int kLastFits = 4;
 // eta of section 6.2 for the coarsest mesh.
@@ -425,11 +427,25 @@ class Run {
     return result;
   }
 
-  Association associated(const Unfinished& u) {
-    const HexComplex& complex = u.complex;
-    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-    Association association =
-        stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_); });
+  // Where vertices lack mesh edges for their CAD edges the grid is divided there, as long as that captures more of them.
+  Association associated(Unfinished& u) {
+    std::vector<CrowdedCorner> crowded;
+    const auto try_on = [&](const HexComplex& complex) {
+      const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+      return stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_, &crowded); });
+    };
+    Association association = try_on(u.complex);
+    HexComplex roomy = u.complex;
+    for (int round = 0; round < kRoomRounds && !crowded.empty(); ++round) {
+      int added = 0;
+      for (const CrowdedCorner& c : crowded) added += make_room(roomy.mesh, {roomy.quads, roomy.quad_chart, roomy.quad_triangle}, c);
+      if (added == 0) break;
+      monitor_.log("pad: room made at " + std::to_string(crowded.size()) + " vertices");
+      Association next = try_on(roomy);
+      if (next.lost_edges.size() >= association.lost_edges.size()) continue;
+      association = std::move(next);
+      u.complex = roomy;
+    }
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
                  std::to_string(association.lost_vertices.size()) + " vertices without mesh");
     return association;

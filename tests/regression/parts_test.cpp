@@ -29,6 +29,8 @@ std::vector<Part> parts() {
           {"L bracket", shapes::l_bracket(20, 5, 15), 0.9},
           {"notched box", shapes::notched_box(10), 0.4},
           {"chamfered box", shapes::chamfered_box(10, 2), 0.3},
+          {"bevelled box", shapes::bevelled_box(10, 2), 0.3},
+          {"pyramid", shapes::pyramid(8, 6), 0.3},
           {"filleted box", shapes::filleted_box(10, 2), 0.5},
           {"half cylinder", shapes::half_cylinder(6, 10), 0.3},
           {"ribbed cup", shapes::ribbed_cup(20), 0.4},

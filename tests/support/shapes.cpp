@@ -6,6 +6,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
@@ -124,6 +125,27 @@ std::string chamfered_box(double size, double leg) {
     const gp_Pnt a = BRep_Tool::Pnt(TopExp::FirstVertex(edge)), b = BRep_Tool::Pnt(TopExp::LastVertex(edge));
     if (a.X() == size && b.X() == size && a.Y() == size && b.Y() == size) chamfer.Add(leg, edge);
   }
+  return text(TopExp_Explorer(chamfer.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string pyramid(double side, double height) {
+  BRepOffsetAPI_ThruSections sections(true, true);
+  BRepBuilderAPI_MakePolygon square;
+  const double s = side / 2;
+  for (const gp_Pnt& p : {gp_Pnt(-s, -s, 0), gp_Pnt(s, -s, 0), gp_Pnt(s, s, 0), gp_Pnt(-s, s, 0)}) square.Add(p);
+  square.Close();
+  sections.AddWire(square.Wire());
+  sections.AddVertex(BRepBuilderAPI_MakeVertex({0, 0, height}));
+  sections.Build();
+  return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string bevelled_box(double size, double leg) {
+  const TopoDS_Shape cube = block({0, 0, 0}, {size, size, size});
+  BRepFilletAPI_MakeChamfer chamfer(cube);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(cube, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) chamfer.Add(leg, TopoDS::Edge(edges(i)));
   return text(TopExp_Explorer(chamfer.Shape(), TopAbs_SOLID).Current());
 }
 

@@ -16,6 +16,8 @@ std::string l_bracket(double leg, double thickness, double width);  ///< L in th
 std::string notched_box(double size);                               ///< cube minus a corner cube of half its size
 std::string filleted_box(double size, double radius);               ///< cube with all twelve edges rounded
 std::string chamfered_box(double size, double leg);                 ///< cube with one edge along Z cut at 45 degrees
+std::string pyramid(double side, double height);                    ///< square base in z = 0 about the origin
+std::string bevelled_box(double size, double leg);                  ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
 std::string hollow_box(double size);                                ///< cube with a cubic void: two shells
 std::string loft(double size, double height);                       ///< square to circle: ruled B-spline sides
 std::string turned(double radius, double height, double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it

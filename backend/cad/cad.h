@@ -27,6 +27,7 @@ struct CadEdge {
   bool closed = false;
   bool seam = false;                   ///< both sides are the same face
   bool degenerate = false;             ///< a point (cone tip, sphere pole): no curve
+  bool tip = false;                    ///< degenerate, and the face runs into a point there, as a cone does and a sphere at its pole does not
   bool tiny = false;                   ///< shorter than 1e-5 of the part's diagonal: all edges that end at one of its vertices name the first of them
   double min_angle = 0, max_angle = 0; ///< least and largest interior dihedral angle along it, radians: pi smooth, < pi convex
   double tolerance = 0;                ///< mm

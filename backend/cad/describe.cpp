@@ -296,8 +296,27 @@ double dihedral_angle(const CadModel::Shape& shape, const EdgeGeometry& edge, do
   return angle < 0 ? angle + 2 * std::numbers::pi : angle;
 }
 
+// Normals a little way off the point that a degenerate edge is: off their mean by more than 10 degrees, a cone's tip and not a sphere's pole.
+bool is_tip(const CadModel::Shape& shape, const EdgeGeometry& edge) {
+  constexpr double kOff = 1e-3;
+  const double kPole = std::cos(std::numbers::pi / 18);
+  const EdgeUse& use = edge.uses.front();
+  const FaceGeometry& face = shape.face(use.face);
+  const Vec2 inwards = kOff * (face.domain.center() - to_vec(use.curve->Value((edge.first + edge.last) / 2)));
+  std::vector<Vec3> normals;
+  Vec3 mean = Vec3::Zero();
+  for (int i = 1; i <= kAngleSamples; ++i) {
+    normals.push_back(surface_normal(face, to_vec(use.curve->Value(edge.first + (edge.last - edge.first) * i / (kAngleSamples + 1))) + inwards));
+    mean += normals.back();
+  }
+  return std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return n.dot(mean.normalized()) < kPole; });
+}
+
 void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id, CadEdge& info) {
-  if (info.degenerate) return;
+  if (info.degenerate) {
+    info.tip = !edge.uses.empty() && is_tip(shape, edge);
+    return;
+  }
   if (edge.uses.size() != 2) throw InvalidInput(name({1, id}) + " bounds " + std::to_string(edge.uses.size()) + " faces; two are needed");
   info.faces = {edge.uses[0].face, edge.uses[1].face};
   info.seam = info.faces[0] == info.faces[1];

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <set>
 
 #include "core/charts.h"
 #include "label/barrels.h"
+#include "label/divide.h"
 #include "label/frame.h"
 #include "label/graph_cut.h"
 #include "label/search.h"
@@ -28,6 +30,11 @@ constexpr double kFlatCosine = 0.985;
 constexpr double kSharpBend = std::numbers::pi / 6;
 // Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
 constexpr double kSmallShare = 0.04, kNarrow = 1.5;
+// A cut nearer to a CAD vertex of its face than the first share of the face's extent moves on by the second: through the vertex it would leave
+// open which side the vertex is on.
+constexpr double kOffVertex = 0.04, kAside = 0.15;
+// Divisions of oblique planes tried for one labelling.
+constexpr int kMostDivisions = 60;
 // Where the rise of strictness begins.
 constexpr double kFirstStrictness = 10;
 
@@ -35,12 +42,16 @@ struct Setup {
   const CadModel& model;
   const TetMesh& mesh;
   const LabelOptions& options;
+  const Tips* tips;           // null: those faces are treated as others
+  std::vector<FaceCut> cuts;  // per CAD face: how it is divided, zero for the usual way
   Mat3 frame;
   std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
   std::vector<double> area;
   std::vector<char> whole;    // per CAD face: one label for all of it
   std::vector<char> flat;     // per CAD face: it hardly bends
   double scale;               // mm
+
+  bool has_tip(int face) const { return tips && !tips->axis[face].isZero(); }
 };
 
 Vec3 triangle_normal(const TetMesh& mesh, int t) {
@@ -75,8 +86,9 @@ double change_weight(double angle, bool same_face) {
   return std::abs(angle - std::numbers::pi) > kSharpBend ? 0.1 : 0.5;
 }
 
-Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options) {
-  Setup s{model, mesh, options, options.frame_given ? options.frame : find_frame(model), {}, {}, {}, {}, 0.02 * model.diagonal()};
+Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
+              std::vector<FaceCut> face_cuts) {
+  Setup s{model, mesh, options, tips, std::move(face_cuts), frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
   const auto n = mesh.triangles.size();
   s.normal.resize(n);
   s.area.resize(n);
@@ -95,7 +107,17 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     if (cosine < std::cos(options.widest_bend)) s.whole[f] = 0;
     if (cosine < kFlatCosine) s.flat[f] = 0;
   }
-  for (std::size_t t = 0; t < n; ++t) s.normal[t] = as_seen(s, mesh.triangle_face[t], s.normal[t]);
+  for (std::size_t t = 0; t < n; ++t) {
+    const int f = mesh.triangle_face[t];
+    if (!s.has_tip(f)) {
+      s.normal[t] = as_seen(s, f, s.normal[t]);
+      continue;
+    }
+    // The lower half faces sideways, however blunt the tip is; of the upper one the search decides.
+    s.whole[f] = 1;
+    const Vec3 sideways = s.normal[t] - s.normal[t].dot(tips->axis[f]) * tips->axis[f];
+    if (!tips->upper[t] && !sideways.isZero(1e-3)) s.normal[t] = sideways.normalized();
+  }
   return s;
 }
 
@@ -161,7 +183,8 @@ Halves halves(const Setup& s) {
   const auto along = [&](std::size_t t, int k) { return slope[s.mesh.triangle_face[t]].dot(s.frame * s.mesh.points[s.mesh.triangles[t][k]]); };
   for (std::size_t t = 0; t < n; ++t) {
     const int f = s.mesh.triangle_face[t];
-    if (!s.flat[f] || s.normal[t].cwiseAbs().maxCoeff() > kLevelCosine) continue;
+    if (s.has_tip(f) || !s.flat[f] || s.normal[t].cwiseAbs().maxCoeff() > kLevelCosine) continue;
+    if (slope[f].isZero()) slope[f] = s.cuts[f].across;
     if (slope[f].isZero()) {
       int axis = 0;
       s.normal[t].cwiseAbs().maxCoeff(&axis);
@@ -172,19 +195,31 @@ Halves halves(const Setup& s) {
       high[f] = std::max(high[f], along(t, k));
     }
   }
+  std::vector<double> middle(slope.size());
+  for (int f = 1; f <= s.model.face_count(); ++f) {
+    if (slope[f].isZero()) continue;
+    const double extent = high[f] - low[f];
+    middle[f] = low[f] + s.cuts[f].share * extent;
+    for (int e : s.model.face(f).edges) {
+      for (int v : s.model.edge(e).vertices) {
+        const double off = middle[f] - slope[f].dot(s.frame * s.model.vertex(v));
+        if (std::abs(off) < kOffVertex * extent) middle[f] += (off < 0 ? -kAside : kAside) * extent;
+      }
+    }
+  }
   std::vector<int> half(n, 0);
   for (std::size_t t = 0; t < n; ++t) {
     const int f = s.mesh.triangle_face[t];
-    if (!slope[f].isZero()) {
-      half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > (low[f] + high[f]) / 2;
+    if (s.has_tip(f)) {
+      half[t] = s.tips->upper[t];
+    } else if (!slope[f].isZero()) {
+      half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > middle[f];
     } else if (s.whole[f] && !s.flat[f]) {
       int axis = 0;
       s.normal[t].cwiseAbs().maxCoeff(&axis);
       half[t] = 2 * axis + (s.normal[t][axis] < 0);
     }
   }
-  std::vector<double> middle(slope.size());
-  for (std::size_t f = 0; f < slope.size(); ++f) middle[f] = (low[f] + high[f]) / 2;
   return {std::move(half), std::move(slope), std::move(middle)};
 }
 
@@ -261,13 +296,25 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
   return {std::move(region), std::move(region_kind)};
 }
 
+// A labelling of regions, before the mesh is cut for it.
+struct Plan {
+  Setup setup;
+  Halves half;
+  Barrels barrels;
+  Split split;
+  RegionGraph graph;
+  std::vector<int> label;  // per region
+  Violations left;
+};
+
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
-std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, const std::vector<int>& region_label, const Split& split,
-                                    const Halves& halves, const Barrels& barrels) {
+std::vector<BorderFunction> borders(const Plan& plan) {
+  const auto& [s, halves, barrels, split, graph, region_label, left] = plan;
   std::vector<BorderFunction> result;
   std::set<std::pair<int, int>> done;
   for (const Arc& arc : graph.arcs) {
     const int a = arc.left, b = arc.right, face = graph.regions[a].face;
+    if (s.has_tip(face)) continue;  // cut already
     if (graph.regions[b].face != face || region_label[a] == region_label[b] || !done.insert(std::minmax(a, b)).second) continue;
     std::vector<int> ends;
     for (const Arc& other : graph.arcs) {
@@ -299,25 +346,28 @@ std::vector<BorderFunction> borders(const Setup& s, const RegionGraph& graph, co
   return result;
 }
 
-}  // namespace
-
-Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
-  const Setup s = prepare(model, mesh, options);
-  monitor.progress("label", 0);
-  const std::vector<int> first = cut_triangles(s, monitor);
-  monitor.progress("label", 0.3);
-  const Halves half = halves(s);
-  std::vector<char> divided(s.whole.size());
-  std::transform(s.whole.begin(), s.whole.end(), divided.begin(), [](char whole) { return !whole; });
-  const Barrels barrels(model, mesh, s.frame, divided);
+// `tips`: null where faces with a tip are treated as others; else `mesh` is cut as theirs.
+std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
+                                const std::vector<FaceCut>& cuts, const Monitor& monitor) {
+  Setup prepared = prepare(model, mesh, options, tips, frame, cuts);
+  std::vector<char> divided(prepared.whole.size());
+  std::transform(prepared.whole.begin(), prepared.whole.end(), divided.begin(), [](char whole) { return !whole; });
+  auto plan = std::make_unique<Plan>(Plan{std::move(prepared), {}, Barrels(model, mesh, frame, divided), {}, {}, {}, {}});
+  const Setup& s = plan->setup;
+  std::vector<int> first = cut_triangles(s, monitor);
+  for (std::size_t t = 0; t < first.size(); ++t) {
+    if (s.has_tip(mesh.triangle_face[t])) first[t] = tips->label[t];
+  }
   double edge = 0;
   for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
   edge /= static_cast<double>(mesh.triangles.size());
-  const Split split = split_regions(s, first, half, barrels, edge);
-  RegionGraph graph = build_region_graph(mesh, split.region);
+  plan->half = halves(s);
+  plan->split = split_regions(s, first, plan->half, plan->barrels, edge);
+  plan->graph = build_region_graph(mesh, plan->split.region);
+  RegionGraph& graph = plan->graph;
   std::vector<int> given(model.face_count() + 1, -1);
   for (const auto& [face, label] : options.face_labels) given[face] = label;
-  std::vector<int> region_label;
+  std::vector<int>& region_label = plan->label;
   for (Region& r : graph.regions) {
     std::array<double, 6> votes{};
     for (int t : r.triangles) {
@@ -338,10 +388,86 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
   }
+  plan->left = find_violations(graph, points, region_label, 0.75 * edge);
+  return plan;
+}
 
+// CAD faces beside a violation.
+std::set<int> faces_at_fault(const Plan& plan) {
+  std::set<int> faces;
+  for (int r : plan.left.regions) faces.insert(plan.graph.regions[r].face);
+  return faces;
+}
+
+bool label_changes_at_tip(const Plan& plan) {
+  const CadModel& model = plan.setup.model;
+  const TetMesh& mesh = plan.setup.mesh;
+  std::set<std::pair<int, int>> tips;  // face, vertex
+  for (int e = 1; e <= model.edge_count(); ++e) {
+    if (model.edge(e).tip) tips.insert({model.edge(e).faces[0], model.edge(e).vertices[0]});
+  }
+  if (tips.empty()) return false;
+  std::map<std::pair<int, int>, std::set<int>> labels;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (int n : mesh.triangles[t]) {
+      const std::pair at(mesh.triangle_face[t], mesh.point_cad[n].id);
+      if (mesh.point_cad[n].dim == 0 && tips.count(at) > 0) labels[at].insert(plan.label[plan.graph.triangle_region[t]]);
+    }
+  }
+  return std::any_of(labels.begin(), labels.end(), [](const auto& tip) { return tip.second.size() > 1; });
+}
+
+// A labelling that stays invalid may lack a place to change its label: faces with tips are divided below the tip, then oblique planes beside the
+// violations in other ways, one after the other, as long as that leaves fewer violations.
+std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Tips& tips, const Monitor& monitor) {
+  const Mat3 frame = options.frame_given ? options.frame : find_frame(model);
+  const std::vector<FaceCut> usual(static_cast<std::size_t>(model.face_count()) + 1);
+  std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, monitor);
+  const auto better_with = [&](const Tips* with, const std::vector<FaceCut>& cuts) {
+    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : mesh, options, with, frame, cuts, monitor);
+    if (plan->left.score >= best->left.score) return false;
+    best = std::move(plan);
+    return true;
+  };
+  if (best->left.valid() && !label_changes_at_tip(*best)) return best;
+  tips = divide_tips(model, mesh, frame, monitor);
+  if (tips.any) {
+    std::unique_ptr<Plan> divided = make_plan(model, tips.mesh, options, &tips, frame, usual, monitor);
+    // Where the labels change at a tip there is no telling from a few triangles which of them meet there, unless they are cut for it.
+    if (divided->left.valid() || divided->left.score < best->left.score) best = std::move(divided);
+  }
+  int tries = 0;
+  for (bool changed = true; changed && !best->left.valid();) {
+    changed = false;
+    for (int f : faces_at_fault(*best)) {
+      if (model.face(f).kind != SurfaceKind::kPlane || best->half.slope[f].isZero()) continue;
+      for (const FaceCut& cut : plane_cuts(frame * model.face(f).axis)) {
+        if (best->left.valid() || tries++ >= kMostDivisions) return best;
+        std::vector<FaceCut> cuts = best->setup.cuts;
+        cuts[f] = cut;
+        changed |= better_with(best->setup.tips, cuts);
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
+  monitor.progress("label", 0);
+  Tips tips;
+  std::unique_ptr<Plan> plan = best_plan(model, mesh, options, tips, monitor);
+  if (plan->setup.tips) {
+    // Borders ask for points that cutting adds: the plan must stand on the mesh that is cut.
+    mesh = tips.mesh;
+    plan = make_plan(model, mesh, options, &tips, plan->setup.frame, plan->setup.cuts, monitor);
+  }
+  monitor.progress("label", 0.5);
+  const RegionGraph& graph = plan->graph;
   Labelling result;
-  result.frame = s.frame;
-  for (int r : cut_along(mesh, graph.triangle_region, borders(s, graph, region_label, split, half, barrels), monitor)) result.label.push_back(region_label[r]);
+  result.frame = plan->setup.frame;
+  for (int r : cut_along(mesh, graph.triangle_region, borders(*plan), monitor)) result.label.push_back(plan->label[r]);
   split_tied_edges(mesh, result.label, monitor);
   absorb_strays(mesh, result, monitor);
   const Violations left = find_violations(mesh, result.frame, result.label);
@@ -350,7 +476,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
   if (report) {
     *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs, left.poor_loops,
-               left.bad_corners, left.turning_points, left.bad_turns, left.score, region_energy(graph, region_label)};
+               left.bad_corners, left.turning_points, left.bad_turns, left.score, region_energy(graph, plan->label)};
   }
   monitor.progress("label", 1);
   return result;

@@ -96,6 +96,7 @@ class Associator {
       const CadEdge& edge = model_.edge(e);
       if (!edge.seam && !edge.degenerate && !edge.tiny) real_.push_back(e);
     }
+    find_tips();
     failures_.assign(model_.edge_count() + 1, 0);
     find_spokes();
     std::optional<Association> best;
@@ -140,6 +141,17 @@ class Associator {
       lost_[culprit] = 1;
       path_[culprit] = {};
     }
+  }
+
+  // Points of faces where no CAD edge ends: a cone has its tip on a node all the same.
+  void find_tips() {
+    std::set<int> ends;
+    for (int e : real_) ends.insert(model_.edge(e).vertices.begin(), model_.edge(e).vertices.end());
+    for (int e = 1; e <= model_.edge_count(); ++e) {
+      if (model_.edge(e).tip && ends.count(model_.edge(e).vertices[0]) == 0) tips_.push_back(model_.edge(e).vertices[0]);
+    }
+    std::sort(tips_.begin(), tips_.end());
+    tips_.erase(std::unique(tips_.begin(), tips_.end()), tips_.end());
   }
 
   // The CAD edges round every vertex in order, with the angles of the tet mesh's triangles between them.
@@ -252,6 +264,7 @@ class Associator {
       if (ignored(e)) continue;
       for (int v : model_.edge(e).vertices) wanted[v] = 1;
     }
+    for (int v : tips_) wanted[v] = 1;
     std::vector<int> tet_node(model_.vertex_count() + 1, -1);
     for (int n = 0; n < static_cast<int>(tets_.points.size()); ++n) {
       if (tets_.point_cad[n].dim == 0) tet_node[tets_.point_cad[n].id] = n;
@@ -604,6 +617,10 @@ class Associator {
         result.point_cad[nodes[i + 1]] = {1, e};
       }
     }
+    for (int v : tips_) {
+      wanted[v] = kWanted;
+      reached[v] = vertex_node_[v] >= 0;
+    }
     for (int v = 1; v <= model_.vertex_count(); ++v) {
       if (!wanted[v]) continue;
       if (reached[v]) {
@@ -644,6 +661,7 @@ class Associator {
   std::vector<int> chart_of_triangle_;
   std::unordered_map<std::uint64_t, int> triangle_left_;
   std::vector<int> real_;                        // CAD edges that count
+  std::vector<int> tips_;                        // CAD vertices without such edges that count all the same
   std::vector<char> lost_;
   std::vector<int> vertex_node_;
   std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge

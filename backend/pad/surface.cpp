@@ -103,7 +103,14 @@ class Chooser {
         association_(whole.padded.association),
         edges_(boundary_edges(mesh_, association_.quads, whole.topology)),
         angles_(dihedral_angles(whole.model, mesh_, association_, edges_)),
-        regions_(find_regions(association_, edges_, angles_)) {}
+        regions_(find_regions(association_, edges_, angles_)) {
+    std::vector<char> ends(mesh_.points.size(), 0);
+    for (const Segment& s : association_.segments) ends[s[0]] = ends[s[1]] = 1;
+    for (int v = 0; v < static_cast<int>(ends.size()); ++v) {
+      const int hexes = whole.topology.node_first[v + 1] - whole.topology.node_first[v];
+      if (association_.point_cad[v].dim == 0 && !ends[v] && hexes == 1) tips_.push_back(v);
+    }
+  }
 
   const Regions& regions() const { return regions_; }
 
@@ -191,6 +198,7 @@ class Chooser {
       for (std::size_t q = 0; q < surface.size(); ++q) surface[q] = chosen[regions_.of_quad[q]];
       SheetCut cut{std::vector<char>(mesh_.hexes.size(), 1), surface};
       if (extend && !extend_cut(mesh_, whole_.topology, edges_, angles_, surface, cut)) return;
+      spare_tips(cut);
       const TrialResult result = try_sheet(whole_, cut);
       if (result.obstacles.empty()) {
         const int quads = static_cast<int>(std::count(surface.begin(), surface.end(), 1));
@@ -199,6 +207,17 @@ class Chooser {
         return;
       }
       if (!take_in(result.obstacles, chosen)) return;
+    }
+  }
+
+  // The one hex at the tip of a cone stays outside of the layer: three cells under it would share a corner that is too narrow for one already.
+  void spare_tips(SheetCut& cut) const {
+    for (int v : tips_) {
+      const int hex = whole_.topology.node_hexes[whole_.topology.node_first[v]];
+      const std::vector<int>& quads = whole_.node_quads[v];
+      if (!std::all_of(quads.begin(), quads.end(), [&](int q) { return cut.surface[q]; })) continue;
+      cut.inside[hex] = 0;
+      for (int q : quads) cut.surface[q] = 0;
     }
   }
 
@@ -231,6 +250,7 @@ class Chooser {
           for (int exit : fan.exits) cut.inside[exit / 6] = 1;
         }
       }
+      spare_tips(cut);
       const TrialResult result = try_sheet(whole_, cut);
       if (result.obstacles.empty()) {
         const int quads = static_cast<int>(std::count(cut.surface.begin(), cut.surface.end(), 1));
@@ -273,6 +293,7 @@ class Chooser {
   std::vector<BoundaryEdge> edges_;
   std::vector<double> angles_;
   Regions regions_;
+  std::vector<int> tips_;  // nodes of CAD vertices without CAD edges, with one hex there
 };
 
 }  // namespace

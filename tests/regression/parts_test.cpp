@@ -31,6 +31,8 @@ std::vector<Part> parts() {
           {"chamfered box", shapes::chamfered_box(10, 2), 0.3},
           {"bevelled box", shapes::bevelled_box(10, 2), 0.3},
           {"pyramid", shapes::pyramid(8, 6), 0.3},
+          {"tetrahedron", shapes::tetrahedron(10), 0.3},
+          {"cone", shapes::cone(5, 0, 12), 0.3},
           {"filleted box", shapes::filleted_box(10, 2), 0.5},
           {"half cylinder", shapes::half_cylinder(6, 10), 0.3},
           {"ribbed cup", shapes::ribbed_cup(20), 0.4},
@@ -56,6 +58,16 @@ TEST_P(Parts, AreMeshedCompletely) {
     if (at.dim == 2) off = model.project_to_face(result.association.patches[at.id].front(), p).distance;
     EXPECT_LE(off, 1e-9 * model.diagonal());
   }
+}
+
+TEST(Pipeline, AConeHasItsTipOnANode) {
+  const CadModel model = CadModel::from_brep(shapes::cone(5, 0, 12));
+  const MeshResult result = mesh(model, MeshOptions(), Monitor());
+  int tips = 0;
+  for (std::size_t i = 0; i < result.mesh.points.size(); ++i) {
+    if (result.association.point_cad[i].dim == 0) tips += (result.mesh.points[i] - Vec3(0, 0, 12)).norm() < 1e-9;
+  }
+  EXPECT_EQ(tips, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Made, Parts, testing::ValuesIn(parts()), [](const auto& part) {

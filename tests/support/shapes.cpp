@@ -33,6 +33,7 @@
 #include <TopoDS_Shell.hxx>
 #include <gp.hxx>
 #include <gp_Circ.hxx>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 
@@ -136,6 +137,18 @@ std::string pyramid(double side, double height) {
   square.Close();
   sections.AddWire(square.Wire());
   sections.AddVertex(BRepBuilderAPI_MakeVertex({0, 0, height}));
+  sections.Build();
+  return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string tetrahedron(double edge) {
+  BRepOffsetAPI_ThruSections sections(true, true);
+  BRepBuilderAPI_MakePolygon base;
+  const double r = edge / std::sqrt(3);
+  for (int i = 0; i < 3; ++i) base.Add({r * std::cos(2 * std::numbers::pi * i / 3), r * std::sin(2 * std::numbers::pi * i / 3), 0});
+  base.Close();
+  sections.AddWire(base.Wire());
+  sections.AddVertex(BRepBuilderAPI_MakeVertex({0, 0, edge * std::sqrt(2.0 / 3)}));
   sections.Build();
   return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
 }

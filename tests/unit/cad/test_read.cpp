@@ -143,16 +143,21 @@ TEST(Read, DihedralAngles) {
 
 TEST(Read, SeamsAndPoles) {
   const CadModel cone = model(shapes::cone(2, 0, 3));
-  int seams = 0, degenerate = 0;
+  int seams = 0, degenerate = 0, tips = 0;
   for (int e = 1; e <= cone.edge_count(); ++e) {
     seams += cone.edge(e).seam;
     degenerate += cone.edge(e).degenerate;
+    tips += cone.edge(e).tip;
     if (cone.edge(e).seam) {
       EXPECT_NEAR(cone.edge(e).min_angle, pi, 1e-9);
     }
   }
   EXPECT_EQ(seams, 1);
   EXPECT_EQ(degenerate, 1);
+  EXPECT_EQ(tips, 1);
+  const CadModel ball = model(shapes::sphere(3)), blunt = model(shapes::cone(2, 0, 0.7));
+  for (int e = 1; e <= ball.edge_count(); ++e) EXPECT_FALSE(ball.edge(e).tip);
+  for (int e = 1; e <= blunt.edge_count(); ++e) EXPECT_EQ(blunt.edge(e).tip, blunt.edge(e).degenerate);
 }
 
 TEST(Read, TinyEdgesArePoints) {

@@ -1,0 +1,133 @@
+#include "label/divide.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/charts.h"
+#include "label/straighten.h"
+
+namespace polycube {
+namespace {
+
+// A plane takes the label of an axis only if its normal has this share of it.
+constexpr double kLeastShare = 0.2;
+
+// From the vertex to the middle of the face, in the frame.
+Vec3 way_to_middle(const TetMesh& mesh, int face, const Vec3& vertex, const Mat3& frame) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_face[t] != face) continue;
+    const auto& [a, b, c] = mesh.triangles[t];
+    const double area = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm();
+    sum += area * ((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3 - vertex);
+  }
+  return (frame * sum).normalized();
+}
+
+// Cuts that divide a face in pieces: positive and negative side of each.
+struct Cutter {
+  TetMesh& mesh;
+  std::vector<int> region;  // per triangle: 8 * face + the sum of 2^i over the cuts i that it is on the positive side of
+
+  void cut(int face, int i, const std::function<double(const Vec3&)>& value, const Monitor& monitor) {
+    std::vector<BorderFunction> borders;
+    for (int p = 0; p < 1 << i; ++p)
+      borders.push_back({8 * face + p + (1 << i), 8 * face + p, [&](int n) { return value(mesh.points[n]); }, {}});
+    region = cut_along(mesh, region, borders, monitor);
+  }
+};
+
+// `line`: what the quarters go round; `axis`: the axis of the frame that is next to it.
+void divide(Cutter& cutter, int face, const Vec3& tip, const Vec3& line, const Vec3& axis, const Mat3& frame, const Monitor& monitor) {
+  const TetMesh& mesh = cutter.mesh;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_face[t] != face) continue;
+    for (int n : mesh.triangles[t]) {
+      low = std::min(low, axis.dot(frame * mesh.points[n]));
+      high = std::max(high, axis.dot(frame * mesh.points[n]));
+    }
+  }
+  const double half = (low + high) / 2, side = axis.dot(frame * tip) > half ? 1 : -1;
+  int k = 0;
+  axis.cwiseAbs().maxCoeff(&k);
+  const Vec3 u = Vec3::Unit((k + 1) % 3), v = Vec3::Unit((k + 2) % 3);
+  for (int i : {0, 1}) {
+    const Vec3 normal = line.cross(u + (i == 0 ? 1 : -1) * v).normalized();
+    cutter.cut(
+        face, i, [&](const Vec3& p) { return normal.dot(frame * (p - tip)); }, monitor);
+  }
+  cutter.cut(
+      face, 2, [&](const Vec3& p) { return side * (axis.dot(frame * p) - half); }, monitor);
+}
+
+// The label across `axis` that each quarter of the face turns to.
+std::array<int, 4> quarter_labels(const Cutter& cutter, int face, const Vec3& axis, const Mat3& frame) {
+  std::array<Vec3, 4> facing;
+  facing.fill(Vec3::Zero());
+  for (std::size_t t = 0; t < cutter.region.size(); ++t) {
+    if (cutter.region[t] / 8 != face) continue;
+    const auto& [a, b, c] = cutter.mesh.triangles[t];
+    const std::vector<Vec3>& p = cutter.mesh.points;
+    facing[cutter.region[t] % 4] += frame * (p[b] - p[a]).cross(p[c] - p[a]);
+  }
+  std::array<int, 4> labels{};
+  for (int q = 0; q < 4; ++q) {
+    const Vec3 n = facing[q] - axis.dot(facing[q]) * axis;
+    int a = 0;
+    n.cwiseAbs().maxCoeff(&a);
+    labels[q] = 2 * a + (n[a] < 0);
+  }
+  return labels;
+}
+
+}  // namespace
+
+std::vector<FaceCut> plane_cuts(const Vec3& normal) {
+  std::vector<FaceCut> cuts;
+  for (int along = 0; along < 3; ++along) {
+    // The line runs along one axis and divides the plane between the two others.
+    if (std::abs(normal[(along + 1) % 3]) < kLeastShare || std::abs(normal[(along + 2) % 3]) < kLeastShare) continue;
+    const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
+    for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share});
+  }
+  return cuts;
+}
+
+Tips divide_tips(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const Monitor& monitor) {
+  Tips tips;
+  tips.axis.assign(static_cast<std::size_t>(model.face_count()) + 1, Vec3::Zero());
+  tips.mesh = mesh;
+  Cutter cutter{tips.mesh, mesh.triangle_face};
+  for (int& r : cutter.region) r *= 8;
+  for (int e = 1; e <= model.edge_count(); ++e) {
+    const CadEdge& edge = model.edge(e);
+    const int face = edge.faces[0];
+    if (!edge.tip || !tips.axis[face].isZero()) continue;
+    const Vec3& tip = model.vertex(edge.vertices[0]);
+    const bool cone = model.face(face).kind == SurfaceKind::kCone;
+    const Vec3 line = cone ? Vec3(frame * model.face(face).axis) : way_to_middle(tips.mesh, face, tip, frame);
+    int k = 0;
+    line.cwiseAbs().maxCoeff(&k);
+    tips.axis[face] = Vec3::Unit(k);
+    tips.any = true;
+    divide(cutter, face, tip, line, tips.axis[face], frame, monitor);
+  }
+  tips.label.assign(tips.mesh.triangles.size(), -1);
+  tips.upper.assign(tips.mesh.triangles.size(), 0);
+  for (int f = 1; f <= model.face_count(); ++f) {
+    if (tips.axis[f].isZero()) continue;
+    const std::array<int, 4> labels = quarter_labels(cutter, f, tips.axis[f], frame);
+    for (std::size_t t = 0; t < cutter.region.size(); ++t) {
+      if (cutter.region[t] / 8 != f) continue;
+      tips.label[t] = labels[cutter.region[t] % 4];
+      tips.upper[t] = cutter.region[t] % 8 >= 4;
+    }
+  }
+  return tips;
+}
+
+}  // namespace polycube

@@ -1,0 +1,31 @@
+// Where faces that may have to take two labels are divided, when the usual place (half way down their slope, or not at all) leaves a
+// labelling invalid.
+#pragma once
+
+#include "cad/cad.h"
+#include "core/mesh.h"
+#include "core/monitor.h"
+
+namespace polycube {
+
+/// A straight cut through an oblique plane: `share` of its extent along `across` lies below. The usual way where `across` is zero.
+struct FaceCut {
+  Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
+  double share = 0.5;
+};
+
+/// Ways to divide an oblique plane with this normal (in the frame) so that each part can face an axis of its own.
+std::vector<FaceCut> plane_cuts(const Vec3& normal);
+
+/// Faces that end in a point (CadEdge::tip), divided in four round the axis nearest to the tip's direction, and half way up to
+/// the tip: like the side of a pyramid they may have to take other labels at the tip than below.
+struct Tips {
+  bool any = false;
+  std::vector<Vec3> axis;   ///< per CAD face: that axis, in the frame; zero without tip
+  TetMesh mesh;             ///< cut along the divisions
+  std::vector<int> label;   ///< per triangle of it: the label across the axis that its quarter turns to; -1 on other faces
+  std::vector<char> upper;  ///< per triangle: it is in the half at the tip
+};
+Tips divide_tips(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const Monitor& monitor);
+
+}  // namespace polycube

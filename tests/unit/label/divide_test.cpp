@@ -1,0 +1,62 @@
+#include "label/divide.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "core/charts.h"
+#include "support/shapes.h"
+#include "tet/tet.h"
+
+namespace polycube {
+namespace {
+
+TetMesh tets_of(const CadModel& model) {
+  TetOptions options;
+  options.size = model.diagonal() / 20;
+  return tetrahedralise(model, options, Monitor());
+}
+
+TEST(PlaneCuts, DivideBetweenTheAxesThatThePlaneFaces) {
+  const Vec3 oblique = Vec3(1, 1, 1).normalized(), slope = Vec3(1, 0, 1).normalized();
+  EXPECT_EQ(plane_cuts(oblique).size(), 9u);
+  ASSERT_EQ(plane_cuts(slope).size(), 3u);
+  EXPECT_TRUE(plane_cuts(Vec3::UnitZ()).empty());
+  for (const FaceCut& c : plane_cuts(slope)) {
+    EXPECT_NEAR(c.across.dot(slope), 0, 1e-12);
+    EXPECT_NEAR(c.across[1], 0, 1e-12);  // the line runs along y
+  }
+}
+
+TEST(DivideTips, InQuartersRoundTheAxisAndInHalvesUpIt) {
+  const CadModel model = CadModel::from_brep(shapes::cone(5, 0, 12));
+  const TetMesh mesh = tets_of(model);
+  const Tips tips = divide_tips(model, mesh, Mat3::Identity(), Monitor());
+  ASSERT_TRUE(tips.any);
+  std::map<int, double> area;
+  std::set<int> at_tip;
+  for (std::size_t t = 0; t < tips.mesh.triangles.size(); ++t) {
+    if (tips.label[t] < 0) continue;
+    const auto& [a, b, c] = tips.mesh.triangles[t];
+    const std::vector<Vec3>& p = tips.mesh.points;
+    area[tips.label[t] + (tips.upper[t] ? 10 : 0)] += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
+    const bool tip = p[a][2] > 12 - 1e-9 || p[b][2] > 12 - 1e-9 || p[c][2] > 12 - 1e-9;
+    if (tip) at_tip.insert(tips.label[t]);
+    const Vec3 middle = (p[a] + p[b] + p[c]) / 3;
+    EXPECT_GT(label_sign(tips.label[t]) * middle[label_axis(tips.label[t])], 0);
+  }
+  ASSERT_EQ(area.size(), 8u);  // four quarters, two halves
+  EXPECT_EQ(at_tip, (std::set<int>{0, 1, 2, 3}));
+  for (const auto& [piece, size] : area) EXPECT_NEAR(size / (std::numbers::pi * 5 * 13 / 4), piece >= 10 ? 0.25 : 0.75, 0.05) << piece;
+}
+
+TEST(DivideTips, NotAtThePolesOfASphere) {
+  const CadModel model = CadModel::from_brep(shapes::sphere(5));
+  EXPECT_FALSE(divide_tips(model, tets_of(model), Mat3::Identity(), Monitor()).any);
+}
+
+}  // namespace
+}  // namespace polycube

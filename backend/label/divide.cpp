@@ -84,15 +84,40 @@ std::array<int, 4> quarter_labels(const Cutter& cutter, int face, const Vec3& ax
   return labels;
 }
 
+// Where two parts meet: away from the axis that neither of them faces.
+Vec3 ray(const Vec3& normal, int axis) {
+  return (normal[axis] < 0 ? 1 : -1) * (Vec3::Unit(axis) - normal[axis] * normal);
+}
+
 }  // namespace
+
+int third_at(const Vec3& normal, const Vec3& way) {
+  int best = 0;
+  double most = -std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    const double inside = std::min(third_side(normal, way, k, a), third_side(normal, way, k, b));
+    if (inside > most) {
+      most = inside;
+      best = k;
+    }
+  }
+  return best;
+}
+
+double third_side(const Vec3& normal, const Vec3& way, int part, int other) {
+  const Vec3 border = normal.cross(ray(normal, 3 - part - other)).normalized();
+  return border.dot(ray(normal, part)) < 0 ? border.dot(way) : -border.dot(way);
+}
 
 std::vector<FaceCut> plane_cuts(const Vec3& normal) {
   std::vector<FaceCut> cuts;
+  if (normal.cwiseAbs().minCoeff() > kLeastShare) cuts.push_back({ray(normal, 0).normalized(), 0.5, true});
   for (int along = 0; along < 3; ++along) {
     // The line runs along one axis and divides the plane between the two others.
     if (std::abs(normal[(along + 1) % 3]) < kLeastShare || std::abs(normal[(along + 2) % 3]) < kLeastShare) continue;
     const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
-    for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share});
+    for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share, false});
   }
   return cuts;
 }

@@ -12,7 +12,13 @@ namespace polycube {
 struct FaceCut {
   Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
   double share = 0.5;
+  bool thirds = false;  ///< instead: three parts that meet in its middle, as the faces of a cube do in a corner
 };
+
+/// The part (0, 1, 2: the axis that it faces) of a plane divided in thirds, `way` from its middle.
+int third_at(const Vec3& normal, const Vec3& way);
+/// Positive where that part lies, beside its border with another part.
+double third_side(const Vec3& normal, const Vec3& way, int part, int other);
 
 /// Ways to divide an oblique plane with this normal (in the frame) so that each part can face an axis of its own.
 std::vector<FaceCut> plane_cuts(const Vec3& normal);

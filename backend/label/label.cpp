@@ -174,6 +174,7 @@ struct Halves {
   std::vector<int> half;              // per triangle
   std::vector<Vec3> slope;            // per CAD face: direction across the cut of an oblique plane, else zero
   std::vector<double> middle;         // per CAD face: where it is cut along the slope
+  std::vector<Vec3> centre;           // per CAD face divided in thirds: where they meet, in the frame
 };
 
 Halves halves(const Setup& s) {
@@ -207,11 +208,24 @@ Halves halves(const Setup& s) {
       }
     }
   }
+  std::vector<Vec3> centre(slope.size(), Vec3::Zero());
+  const auto middle_of = [&](std::size_t t) -> Vec3 {
+    const auto& [a, b, c] = s.mesh.triangles[t];
+    return s.frame * ((s.mesh.points[a] + s.mesh.points[b] + s.mesh.points[c]) / 3);
+  };
+  std::vector<double> area(slope.size(), 0);
+  for (std::size_t t = 0; t < n; ++t) {
+    centre[s.mesh.triangle_face[t]] += s.area[t] * middle_of(t);
+    area[s.mesh.triangle_face[t]] += s.area[t];
+  }
+  for (std::size_t f = 1; f < centre.size(); ++f) centre[f] /= area[f];
   std::vector<int> half(n, 0);
   for (std::size_t t = 0; t < n; ++t) {
     const int f = s.mesh.triangle_face[t];
     if (s.has_tip(f)) {
       half[t] = s.tips->upper[t];
+    } else if (s.cuts[f].thirds) {
+      half[t] = third_at(s.frame * s.model.face(f).axis, middle_of(t) - centre[f]);
     } else if (!slope[f].isZero()) {
       half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > middle[f];
     } else if (s.whole[f] && !s.flat[f]) {
@@ -220,7 +234,7 @@ Halves halves(const Setup& s) {
       half[t] = 2 * axis + (s.normal[t][axis] < 0);
     }
   }
-  return {std::move(half), std::move(slope), std::move(middle)};
+  return {std::move(half), std::move(slope), std::move(middle), std::move(centre)};
 }
 
 // The longest side of the box about some triangles.
@@ -322,6 +336,12 @@ std::vector<BorderFunction> borders(const Plan& plan) {
       for (int j : {other.start, other.end}) ends.push_back(graph.junctions[j].node);
     }
     const int p = split.kind[a], q = split.kind[b];
+    if (s.cuts[face].thirds) {
+      result.push_back({a, b, [&s, n = Vec3(s.frame * s.model.face(face).axis), c = halves.centre[face], p, q](int node) {
+                          return third_side(n, s.frame * s.mesh.points[node] - c, p % 8, q % 8);
+                        }});
+      continue;
+    }
     if (!halves.slope[face].isZero() && p % 8 != q % 8) {
       const double sign = p % 8 > q % 8 ? 1 : -1;
       result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }, ends});

@@ -22,12 +22,30 @@ TetMesh tets_of(const CadModel& model) {
 
 TEST(PlaneCuts, DivideBetweenTheAxesThatThePlaneFaces) {
   const Vec3 oblique = Vec3(1, 1, 1).normalized(), slope = Vec3(1, 0, 1).normalized();
-  EXPECT_EQ(plane_cuts(oblique).size(), 9u);
+  EXPECT_EQ(plane_cuts(oblique).size(), 10u);
   ASSERT_EQ(plane_cuts(slope).size(), 3u);
   EXPECT_TRUE(plane_cuts(Vec3::UnitZ()).empty());
   for (const FaceCut& c : plane_cuts(slope)) {
     EXPECT_NEAR(c.across.dot(slope), 0, 1e-12);
     EXPECT_NEAR(c.across[1], 0, 1e-12);  // the line runs along y
+  }
+}
+
+TEST(Thirds, FaceTheirAxesAndMeetInTheMiddle) {
+  for (const Vec3& way : {Vec3(1, 1, 1), Vec3(-1, 2, 1), Vec3(1, -1, -2)}) {
+    const Vec3 normal = way.normalized();
+    for (int k = 0; k < 3; ++k) {
+      // Up the plane in the direction that its normal has along the axis.
+      const Vec3 up = (normal[k] < 0 ? -1 : 1) * (Vec3::Unit(k) - normal[k] * normal);
+      EXPECT_EQ(third_at(normal, up), k);
+      for (int other = 0; other < 3; ++other) {
+        if (other == k) continue;
+        EXPECT_GT(third_side(normal, up, k, other), 0);
+        EXPECT_NEAR(third_side(normal, up, k, other), -third_side(normal, up, other, k), 1e-12);
+        // The border runs along the third axis.
+        EXPECT_NEAR(third_side(normal, Vec3::Unit(3 - k - other) - normal[3 - k - other] * normal, k, other), 0, 1e-12);
+      }
+    }
   }
 }
 

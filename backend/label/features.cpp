@@ -24,13 +24,13 @@ class Groups {
     while (parent_[i] != i) i = parent_[i];
     return i;
   }
-  /// False when that would put two different charts on one plane; the groups may then be half united.
-  bool unite(int a, int b) {
+  /// False when that would put two different charts on one plane and they must not be `joined`; the groups may then be half united.
+  bool unite(int a, int b, bool joined = false) {
     a = find(a);
     b = find(b);
     if (a == b) return true;
     if (a > b) std::swap(a, b);
-    if (chart_[a] >= 0 && chart_[b] >= 0) return false;
+    if (chart_[a] >= 0 && chart_[b] >= 0 && !joined) return false;
     parent_[b] = a;
     if (chart_[a] < 0) chart_[a] = chart_[b];
     return true;
@@ -74,8 +74,9 @@ class Finder {
     if (runs.empty()) return result;
     std::vector<Groups> trial = groups_;
     for (const Run& run : runs) {
+      const bool level = is_level(run);
       for (int node : run.nodes) {
-        if (trial[run.axis].unite(run.nodes.front(), node)) continue;
+        if (trial[run.axis].unite(run.nodes.front(), node, level)) continue;
         return {edge, EdgeCapture::kLost, "its two ends lie on different charts of one axis"};
       }
     }
@@ -154,6 +155,17 @@ class Finder {
       runs.back().nodes.push_back(chain[i + 1]);
     }
     return runs;
+  }
+
+  // Is the axis really constant along the run? Charts at its two ends then stand level on the part and may do so in the image.
+  bool is_level(const Run& run) const {
+    constexpr double kLevel = 1e-3;  // of the run's extent
+    Vec3 low = frame_ * mesh_.points[run.nodes.front()], high = low;
+    for (int node : run.nodes) {
+      low = low.cwiseMin(frame_ * mesh_.points[node]);
+      high = high.cwiseMax(frame_ * mesh_.points[node]);
+    }
+    return (high - low)[run.axis] <= kLevel * (high - low).norm();
   }
 
   // Would some triangle at the runs' nodes have no area in the image?

@@ -141,15 +141,26 @@ Mat3 CadModel::face_bend(int id, const Vec2& uv) const {
   const FaceGeometry& face = shape_->face(id);
   gp_Pnt p;
   gp_Vec d1u, d1v, d2u, d2v, d2uv;
-  face.surface->D2(uv[0], uv[1], p, d1u, d1v, d2u, d2v, d2uv);
-  const Vec3 u = to_vec(d1u), v = to_vec(d1v);
-  const Vec3 normal = u.cross(v);
-  if (!(normal.norm() > 1e-9 * std::max(u.squaredNorm(), v.squaredNorm()))) return Mat3::Zero();
+  Vec2 at = uv;
+  Vec3 u, v, normal;
+  for (int attempt = 0;; ++attempt) {
+    face.surface->D2(at[0], at[1], p, d1u, d1v, d2u, d2v, d2uv);
+    u = to_vec(d1u);
+    v = to_vec(d1v);
+    normal = u.cross(v);
+    if (normal.norm() > 1e-6 * std::max(u.squaredNorm(), v.squaredNorm())) break;
+    if (attempt == 4) return Mat3::Zero();
+    // A pole or a collapsed border: as a little inside the face.
+    at = uv + std::pow(10.0, attempt - 4) * (Vec2(face.domain.center()) - uv);
+  }
   // Rows that take a tangent vector to its u and v.
   const Vec3 to_u = v.cross(normal) / normal.squaredNorm(), to_v = normal.cross(u) / normal.squaredNorm();
   const Vec3 n = face.sign * normal.normalized();
-  return n.dot(to_vec(d2u)) * to_u * to_u.transpose() + n.dot(to_vec(d2v)) * to_v * to_v.transpose() +
-         n.dot(to_vec(d2uv)) * (to_u * to_v.transpose() + to_v * to_u.transpose());
+  const Mat3 bend = n.dot(to_vec(d2u)) * to_u * to_u.transpose() + n.dot(to_vec(d2v)) * to_v * to_v.transpose() +
+                    n.dot(to_vec(d2uv)) * (to_u * to_v.transpose() + to_v * to_u.transpose());
+  const Vec3 here = surface_normal(face, uv);
+  const Mat3 onto = Mat3::Identity() - here * here.transpose();
+  return onto * bend * onto;
 }
 
 Vec3 CadModel::face_point(int id, const Vec2& uv) const { return to_vec(shape_->face(id).surface->Value(uv[0], uv[1])); }

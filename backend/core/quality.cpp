@@ -9,6 +9,23 @@
 
 namespace polycube {
 
+namespace {
+
+// Of the trilinear map from [-1, 1]^3, at q.
+Mat3 jacobian(const std::vector<Vec3>& points, const Hex& hex, const Vec3& q) {
+  Mat3 jacobian = Mat3::Zero();
+  for (int i = 0; i < 8; ++i) {
+    const auto& ci = kCornerCoordinates[i];
+    const Vec3 r(2 * ci[0] - 1, 2 * ci[1] - 1, 2 * ci[2] - 1);
+    const Vec3 s = Vec3::Ones() + r.cwiseProduct(q);
+    const Vec3 gradient(r[0] * s[1] * s[2] / 8, s[0] * r[1] * s[2] / 8, s[0] * s[1] * r[2] / 8);
+    jacobian += points[hex[i]] * gradient.transpose();
+  }
+  return jacobian;
+}
+
+}  // namespace
+
 double corner_scaled_jacobian(const std::vector<Vec3>& points, const Hex& hex, int corner) {
   const Vec3& c = points[hex[corner]];
   const auto& n = kCornerNeighbours[corner];
@@ -108,21 +125,22 @@ ShapeSummary summarise_shape(const HexMesh& mesh) {
   return {ratio.get(), skewness.get(), warp.get()};
 }
 
+double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex) {
+  const double g = std::sqrt(0.6);
+  double least = std::numeric_limits<double>::infinity();
+  for (double u : {-g, 0.0, g}) {
+    for (double v : {-g, 0.0, g}) {
+      for (double w : {-g, 0.0, g}) least = std::min(least, jacobian(points, hex, {u, v, w}).determinant());
+    }
+  }
+  return least;
+}
+
 double hex_volume(const std::vector<Vec3>& points, const Hex& hex) {
   const double g = 1 / std::sqrt(3.0);
   double volume = 0;
-  for (int k = 0; k < 8; ++k) {
-    const auto& at = kCornerCoordinates[k];
-    const Vec3 q(g * (2 * at[0] - 1), g * (2 * at[1] - 1), g * (2 * at[2] - 1));
-    Mat3 jacobian = Mat3::Zero();
-    for (int i = 0; i < 8; ++i) {
-      const auto& ci = kCornerCoordinates[i];
-      const Vec3 r(2 * ci[0] - 1, 2 * ci[1] - 1, 2 * ci[2] - 1);
-      const Vec3 s = Vec3::Ones() + r.cwiseProduct(q);
-      const Vec3 gradient(r[0] * s[1] * s[2] / 8, s[0] * r[1] * s[2] / 8, s[0] * s[1] * r[2] / 8);
-      jacobian += points[hex[i]] * gradient.transpose();
-    }
-    volume += jacobian.determinant();
+  for (const auto& at : kCornerCoordinates) {
+    volume += jacobian(points, hex, {g * (2 * at[0] - 1), g * (2 * at[1] - 1), g * (2 * at[2] - 1)}).determinant();
   }
   return volume;
 }

@@ -11,6 +11,9 @@ double corner_scaled_jacobian(const std::vector<Vec3>& points, const Hex& hex, i
 /// Smallest of the eight corner scaled Jacobians: 1 for a cube, <= 0 for an inverted cell.
 double scaled_jacobian(const std::vector<Vec3>& points, const Hex& hex);
 
+/// Smallest determinant of the trilinear map at the 3 x 3 x 3 Gauss points: it can be negative where all corners are positive.
+double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex);
+
 struct QualitySummary {
   double min_scaled_jacobian = 0;
   double mean_scaled_jacobian = 0;

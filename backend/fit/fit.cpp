@@ -19,16 +19,46 @@ namespace {
 constexpr int kFew = 4;            // inverted cells worth another start: more of them have a cause that none mends
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
-// How good a mesh is: first no inverted cells, then the worst cell up to a goal, then the mean.
+constexpr double kSuspect = 0.3;   // scaled Jacobian up to which a cell may be inverted inside though its corners are not
+
+// Inverted at an integration point but at no corner.
+bool hollow(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacobian) {
+  return scaled_jacobian > 0 && scaled_jacobian <= kSuspect && !(least_inner_determinant(points, hex) > 0);
+}
+
+// How good a mesh is: first no inverted cells, then no hollow ones, then the worst cell up to a goal, then the mean.
 struct Score {
-  int inverted = 0;
+  int inverted = 0, hollow = 0;
   double worst = 0, mean = 0;
   bool better_than(const Score& other, double goal) const {
     if (inverted != other.inverted) return inverted < other.inverted;
+    if (hollow != other.hollow) return hollow < other.hollow;
     const double mine = std::min(worst, goal), theirs = std::min(other.worst, goal);
     return mine != theirs ? mine > theirs : mean > other.mean;
   }
 };
+
+// Whether the cell's worst corner lies between two CAD edges at a narrow angle, and is as good as that lets it be.
+bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vector<Segment>& on_edges) {
+  constexpr double kNarrow = 0.5;  // cosine: from 60 degrees on other cells would do better
+  constexpr double kNearly = 0.95;
+  int worst = 0;
+  for (int c = 1; c < 8; ++c) {
+    if (corner_scaled_jacobian(points, hex, c) < corner_scaled_jacobian(points, hex, worst)) worst = c;
+  }
+  const double value = corner_scaled_jacobian(points, hex, worst);
+  const auto& next = kCornerNeighbours[worst];
+  const auto on_edge = [&](int k) {
+    return std::binary_search(on_edges.begin(), on_edges.end(), Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
+  };
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3;
+    if (!on_edge(k) || !on_edge(l)) continue;
+    const Vec3 a = (points[hex[next[k]]] - points[hex[worst]]).normalized(), b = (points[hex[next[l]]] - points[hex[worst]]).normalized();
+    if (a.dot(b) > kNarrow && value >= kNearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)))) return true;
+  }
+  return false;
+}
 
 class Fitting {
  public:
@@ -69,7 +99,7 @@ class Fitting {
     if (score_.inverted == 0) {
       square_up();
       monitor_.progress("fit", 0.8);
-      if (score_.worst < goal()) {
+      if (score_.worst < goal() || score_.hollow > 0) {
         raise_worst();
         monitor_.progress("fit", 0.9);
         polish();
@@ -90,8 +120,16 @@ class Fitting {
   }
 
   Score rate() const {
-    const QualitySummary q = summarise(mesh_);
-    return {q.inverted, q.min_scaled_jacobian, q.mean_scaled_jacobian};
+    Score score{0, 0, 1, 0};
+    for (const Hex& hex : mesh_.hexes) {
+      const double value = scaled_jacobian(mesh_.points, hex);
+      score.inverted += value <= 0;
+      score.hollow += hollow(mesh_.points, hex, value);
+      score.worst = std::min(score.worst, value);
+      score.mean += value;
+    }
+    score.mean /= static_cast<double>(mesh_.hexes.size());
+    return score;
   }
 
   // Notes the mesh if it is the best so far.
@@ -296,6 +334,18 @@ FitReport fit(const CadModel& model, HexMesh& mesh, const Association& associati
   const FitReport report = Fitting(model, mesh, association, options, monitor).run();
   monitor.progress("fit", 1);
   return report;
+}
+
+double free_scaled_jacobian(const HexMesh& mesh, const Association& association) {
+  std::vector<Segment> on_edges = association.segments;
+  for (Segment& s : on_edges) std::sort(s.begin(), s.end());
+  std::sort(on_edges.begin(), on_edges.end());
+  double least = 1;
+  for (const Hex& hex : mesh.hexes) {
+    const double value = scaled_jacobian(mesh.points, hex);
+    if (value < least && !held_by_cad(mesh.points, hex, on_edges)) least = value;
+  }
+  return least;
 }
 
 }  // namespace polycube

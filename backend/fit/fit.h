@@ -25,4 +25,8 @@ struct FitReport {
 /// the others are free. Connectivity stays. On return every boundary node is on its entity to 1e-9 of the model's diagonal.
 FitReport fit(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor);
 
+/// The smallest scaled Jacobian but for cells that a narrow angle between two CAD edges holds where they are: no fit and no other grid makes those
+/// better.
+double free_scaled_jacobian(const HexMesh& mesh, const Association& association);
+
 }  // namespace polycube

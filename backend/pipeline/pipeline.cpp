@@ -213,7 +213,13 @@ class Run {
   // A mesh with poor cells is taken only when some others were no better.
   bool good_enough(const MeshResult& r) const {
     const double enough = fits_left_ > kMaxFits - kPatience ? kGoodScaledJacobian : kGoodScaledJacobian / 2;
-    return complete(r) && r.report.quality.min_scaled_jacobian >= enough;
+    const double least = r.report.quality.min_scaled_jacobian;
+    return complete(r) && (least >= enough || good_cells(least, r));
+  }
+  // Cells in a narrow corner of the CAD are what they are; another candidate would have the same.
+  template <class Mesh>
+  static bool good_cells(double least, const Mesh& m) {
+    return least >= kGoodScaledJacobian || (least >= kGoodScaledJacobian / 2 && free_scaled_jacobian(m.mesh, m.association) >= kGoodScaledJacobian);
   }
   // More captured edges first, then the better worst cell.
   static std::pair<double, double> rank(const MeshResult& r) {
@@ -518,7 +524,7 @@ class Run {
         fitted = next;
         chosen = i;
       }
-      if (fitted.inverted == 0 && fitted.min_scaled_jacobian >= kGoodScaledJacobian) break;
+      if (fitted.inverted == 0 && good_cells(fitted.min_scaled_jacobian, choices[chosen])) break;
     }
     report.padded_hexes = pad_reports[chosen].added_hexes;
     monitor_.log("pad: " + std::to_string(pad_reports[chosen].added_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) +

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "core/quality.h"
 #include "fit/fit.h"
 #include "pad/pad.h"
@@ -120,6 +122,21 @@ TEST(Fit, StopsWhenCancelled) {
   Monitor monitor;
   monitor.cancel();
   EXPECT_THROW(fit(CadModel::from_brep(grid.brep), grid.mesh, grid.association, {}, monitor), Cancelled);
+}
+
+// A cell as good as the narrow angle between two CAD edges lets it be does not count.
+TEST(Fit, CellsInNarrowCornersOfTheCadAreHeld) {
+  HexMesh mesh{{}, {{0, 1, 2, 3, 4, 5, 6, 7}}};
+  for (double z : {0, 1}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)}) mesh.points.emplace_back(x, y, z);
+  }
+  Association association;
+  for (const auto& [c, d] : kHexEdges) association.segments.push_back({c, d});
+  const double narrow = std::sin(std::atan2(0.2, 0.98));
+  EXPECT_NEAR(summarise(mesh).min_scaled_jacobian, narrow, 1e-12);
+  EXPECT_EQ(free_scaled_jacobian(mesh, association), 1);  // the only cell is held
+  association.segments.clear();
+  EXPECT_NEAR(free_scaled_jacobian(mesh, association), narrow, 1e-12);
 }
 
 }  // namespace

@@ -339,18 +339,25 @@ Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& po
   return ViolationFinder(graph, points, noise).find(region_label);
 }
 
-Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
-  std::vector<int> chart_of(labels.size()), label;
+ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
+  ChartGraph result;
+  std::vector<int> chart_of(labels.size());
   const std::vector<Chart> charts = find_charts(mesh.triangles, labels);
   for (std::size_t c = 0; c < charts.size(); ++c) {
-    label.push_back(labels[charts[c].triangles.front()]);
+    result.label.push_back(labels[charts[c].triangles.front()]);
     for (int t : charts[c].triangles) chart_of[t] = static_cast<int>(c);
   }
-  std::vector<Vec3> points;
-  for (const Vec3& p : mesh.points) points.push_back(frame * p);
+  for (const Vec3& p : mesh.points) result.points.push_back(frame * p);
   double edge = 0;
-  for (const Triangle& t : mesh.triangles) edge += (points[t[0]] - points[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
-  return find_violations(build_region_graph(mesh, chart_of), points, label, 0.75 * edge);
+  for (const Triangle& t : mesh.triangles) edge += (result.points[t[0]] - result.points[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
+  result.noise = 0.75 * edge;
+  result.graph = build_region_graph(mesh, chart_of);
+  return result;
+}
+
+Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
+  const ChartGraph c = chart_graph(mesh, frame, labels);
+  return find_violations(c.graph, c.points, c.label, c.noise);
 }
 
 }  // namespace polycube

@@ -39,8 +39,18 @@ class ViolationFinder {
 /// The same for one labelling.
 Violations find_violations(const RegionGraph& graph, const std::vector<Vec3>& points, const std::vector<int>& region_label, double noise);
 
-/// Of labels per triangle: their charts are the regions. `frame` takes the mesh to the frame of the labels; reversals below three quarters of a mean edge do
-/// not count.
+/// Labels per triangle as a graph whose regions are their charts, numbered as find_charts numbers them.
+struct ChartGraph {
+  RegionGraph graph;
+  std::vector<int> label;    ///< per chart
+  std::vector<Vec3> points;  ///< in the frame of the labels
+  double noise = 0;          ///< mm: reversals of a boundary below three quarters of a mean edge do not count
+};
+
+/// `frame` takes the mesh to the frame of the labels.
+ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
+
+/// Of the charts of labels per triangle.
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
 }  // namespace polycube

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 
+#include "core/charts.h"
 #include "label/choice.h"
+#include "label/order.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
 #include "tet/tet.h"
@@ -13,6 +16,22 @@ namespace {
 
 // The image needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
 double tet_size(double size, double diagonal) { return std::clamp(size, diagonal / 50, diagonal / 30); }
+
+// Where the charts would have to rise for ever.
+std::optional<StageFailed> unrealisable(const LabelledPart& part) {
+  const RisingLoop loop = find_rising_loop(part.tets, part.labelling.frame, part.labelling.label);
+  if (loop.charts.empty()) return std::nullopt;
+  const std::vector<Chart> charts = find_charts(part.tets.triangles, part.labelling.label);
+  std::string text = "no map can have these labels: along one axis each of these charts would have to lie beyond the one before it, and the first beyond the last:";
+  std::set<int> faces;
+  for (int c : loop.charts) {
+    text += " " + std::to_string(c);
+    for (int t : charts[c].triangles) faces.insert(part.tets.triangle_face[t]);
+  }
+  std::vector<CadRef> at;
+  for (int f : faces) at.push_back({2, f});
+  return StageFailed("label", text, at);
+}
 
 }  // namespace
 
@@ -47,7 +66,8 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   part.label_report = best.report;
   part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
   book("label");
-  if (until == Until::kMap) {
+  part.failure = unrealisable(part);
+  if (until == Until::kMap && !part.failure) {
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size;
     if (options.threads > 0) deform_options.threads = options.threads;

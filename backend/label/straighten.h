@@ -13,7 +13,7 @@ namespace polycube {
 struct BorderFunction {
   int positive = 0, negative = 0;       ///< regions
   std::function<double(int)> value;     ///< per mesh point; kNoOpinion far from the border
-  std::vector<int> ends;                ///< mesh points where the border between the regions ends
+  std::vector<int> ends{};              ///< mesh points where the border between the regions ends
 };
 
 inline constexpr double kNoOpinion = std::numeric_limits<double>::infinity();

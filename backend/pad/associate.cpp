@@ -24,6 +24,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kReach = 3;
 // Cell sizes that a quad too many or too few between two CAD edges at a vertex costs.
 constexpr double kSpokePrice = 0.5;
+// Blame for a path all of which runs in other charts than its CAD edge, in cell sizes of deviation.
+constexpr double kAstrayBlame = 10;
 // Rounds of routing, and those without success after which it ends.
 constexpr int kRounds = 24;
 constexpr int kPatience = 8;
@@ -63,6 +65,7 @@ struct Spoke {
 struct Path {
   std::vector<int> nodes;
   double deviation = 0;  // mm, mean distance from the CAD edge
+  double astray = 0;     // share of it that runs in or between other charts than the CAD edge
 };
 
 class Associator {
@@ -306,10 +309,15 @@ class Associator {
     const int p = triangle_chart(triangle_left_.at(key(a, b))), q = triangle_chart(triangle_left_.at(key(b, a)));
     return std::minmax(p, q);
   }
+  std::pair<int, int> charts_beside(int a, int b) const {
+    const int p = b_.quad_chart[surface_.left_of(a, b)], q = b_.quad_chart[surface_.left_of(b, a)];
+    return std::minmax(p, q);
+  }
   int triangle_chart(int t) const { return chart_of_triangle_[t]; }
 
   void route_all() {
     path_.assign(model_.edge_count() + 1, {});
+    taken_.clear();
     std::vector<int> order;
     std::map<int, double> inside;  // share of the edge that runs inside charts: those with none first, they have no choice
     for (int e : real_) {
@@ -374,6 +382,12 @@ class Associator {
       return false;
     }
     path.deviation = sum / static_cast<double>(path.nodes.size());
+    const auto pairs = chart_pairs(chain);
+    for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) {
+      path.astray += pairs.count(charts_beside(path.nodes[i], path.nodes[i + 1])) == 0;
+    }
+    path.astray /= static_cast<double>(path.nodes.size() - 1);
+    for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) taken_.insert(std::minmax(path.nodes[i], path.nodes[i + 1]));
     path_[e] = std::move(path);
     return true;
   }
@@ -423,14 +437,13 @@ class Associator {
     std::unordered_map<std::uint64_t, double> best;
     std::unordered_map<std::uint64_t, int> before;  // directed edge -> the node before it
     const auto push = [&](double base, int previous, int a, int b) {
-      if (b != to && owner_[b] != 0) return;
+      if ((b != to && owner_[b] != 0) || (b == to && taken_.count(std::minmax(a, b)) > 0)) return;
       const double da = away(a), db = away(b), size = options_.size;
       if (db > kReach * size && b != to) return;
-      const int p = b_.quad_chart[surface_.left_of(a, b)], q = b_.quad_chart[surface_.left_of(b, a)];
       double cost = (b_.points[a] - b_.points[b]).norm() + 1e-3 * size;
       const double mean = (da + db) / (2 * size);
       cost *= 1 + 8 * mean + 16 * mean * mean;
-      if (pairs.count(std::minmax(p, q)) == 0) cost = 6 * cost + size;
+      if (pairs.count(charts_beside(a, b)) == 0) cost = 6 * cost + size;
       if (previous >= 0) cost += turn_price(previous, a, b);
       if (previous < 0 && first) cost += spoke_price(model_.edge(e).vertices[0], e, 0, from, b);
       if (b == to && last) cost += spoke_price(model_.edge(e).vertices[1], e, 1, to, a);
@@ -500,7 +513,7 @@ class Associator {
     int culprit = 0;
     double culprit_cost = -1;
     const auto blame = [&](int e) {
-      const double cost = path_[e].deviation / options_.size + 1e-6 * e;
+      const double cost = path_[e].deviation / options_.size + kAstrayBlame * path_[e].astray + 1e-6 * e;
       if (cost > culprit_cost) {
         culprit_cost = cost;
         culprit = e;
@@ -666,6 +679,7 @@ class Associator {
   std::vector<int> vertex_node_;
   std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge
   std::vector<Path> path_;
+  std::set<std::pair<int, int>> taken_;          // mesh edges on paths: two may join the same vertices
   std::vector<std::vector<Spoke>> spokes_;       // per CAD vertex, counter-clockwise
   std::vector<int> failures_;                    // per CAD edge: rounds without a path
 };

@@ -94,6 +94,7 @@ TEST(PadRings, AnInnerFaceBetweenTwoPiecesOfOneCadEdgeIsFlatInBothItsCells) {
 
 TEST(PadRings, ASecondCellInACuspIsWorseThanAFlatCorner) {
   EXPECT_GT(angle_cost(2, 0.2) - angle_cost(1, 0.2), angle_cost(1, std::numbers::pi));
+  EXPECT_GT(angle_cost(2, 0.5) - angle_cost(1, 0.5), angle_cost(1, std::numbers::pi));
   EXPECT_LT(angle_cost(2, 0.6), angle_cost(1, std::numbers::pi));
 }
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/hexahedron.h"
 #include "label/features.h"
+#include "pipeline/edge_runs.h"
 
 namespace polycube {
 namespace {
@@ -91,60 +92,9 @@ void divide_wall(const Division& division, const SideFaces& side_faces, const Po
   }
 }
 
-/// A stretch of a CAD edge along one axis of the map, from one chart or feature to another.
-struct Run {
-  int axis, from, to;  ///< charts
-  double length;
-};
-
-/// Empty where the edge does not run from chart to chart along the axes.
-std::vector<Run> find_runs(const std::vector<int>& chain, const std::vector<std::array<std::vector<int>, 3>>& charts_at,
-                           const PolycuboidMap& map, const BlockComplex& complex) {
-  const auto unknown_at = [&](int node, int axis) {
-    for (int c : charts_at[node][axis]) {
-      if (complex.unknown[c] >= 0) return complex.unknown[c];
-    }
-    return -1;
-  };
-  const auto held = [&](int a, int b, int axis) {
-    const auto &at_a = charts_at[a][axis], &at_b = charts_at[b][axis];
-    return std::any_of(at_a.begin(), at_a.end(), [&](int c) { return std::find(at_b.begin(), at_b.end(), c) != at_b.end(); });
-  };
-  if (chain.size() < 2) return {};
-  const std::size_t count = chain.size() - 1;
-  std::vector<int> along(count, -1);  // per segment: the axis that it runs along
-  for (std::size_t i = 0; i < count; ++i) {
-    double most = 0;
-    for (int d = 0; d < 3; ++d) {
-      const double step = std::abs(map.image[chain[i + 1]][d] - map.image[chain[i]][d]);
-      if (held(chain[i], chain[i + 1], d) || step <= most) continue;
-      most = step;
-      along[i] = d;
-    }
-  }
-  // A closed edge starts anywhere: the runs start at a turn.
-  std::size_t first = 0;
-  if (chain.front() == chain.back()) {
-    while (first < count && along[first] == along[(first + count - 1) % count]) ++first;
-    if (first == count) return {};
-  }
-  std::vector<Run> runs;
-  for (std::size_t i = 0; i < count;) {
-    const int axis = along[(first + i) % count];
-    const int from_node = chain[(first + i) % count];
-    for (; i < count && (along[(first + i) % count] == axis || along[(first + i) % count] < 0); ++i) {}
-    const int to_node = chain[(first + i - 1) % count + 1];
-    if (axis < 0) continue;
-    const int from = unknown_at(from_node, axis), to = unknown_at(to_node, axis);
-    if (from < 0 || to < 0) return {};
-    if (from != to) runs.push_back({axis, from, to, std::abs(map.charts[to].value - map.charts[from].value)});
-  }
-  return runs;
-}
-
-void divide_edge(const Division& division, const std::vector<Run>& runs, const PolycuboidMap& map, std::vector<DistanceConstraint>& constraints) {
+void divide_edge(const Division& division, const std::vector<EdgeRun>& runs, const PolycuboidMap& map, std::vector<DistanceConstraint>& constraints) {
   const int count = static_cast<int>(runs.size());
-  if (count == 0) {
+  if (count == 0 || std::any_of(runs.begin(), runs.end(), [](const EdgeRun& r) { return r.from < 0 || r.to < 0; })) {
     throw StageFailed("quantize", "the grid does not follow the edge of division " + text_of(division), {{1, division.edge}});
   }
   if (division.at_most < count) {
@@ -152,7 +102,7 @@ void divide_edge(const Division& division, const std::vector<Run>& runs, const P
                       {{1, division.edge}});
   }
   double whole = 0;
-  for (const Run& run : runs) whole += run.length;
+  for (const EdgeRun& run : runs) whole += run.length;
   // Both numbers are shared out by length; one element for every run at least.
   double passed = 0;
   int least_before = 0, most_before = 0;
@@ -243,13 +193,10 @@ QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, con
   if (options.divisions.empty() && options.sizes.empty()) return result;
   const SideFaces side_faces = find_side_faces(tets, map, blocks);
   const auto chains = edge_chains(model, tets);
-  std::vector<std::array<std::vector<int>, 3>> charts_at(tets.points.size());
-  for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
-    for (int n : map.charts[c].nodes) charts_at[n][map.charts[c].axis].push_back(c);
-  }
+  const EdgeRuns runs(tets, map, blocks);
   for (const Division& d : options.divisions) {
     if (d.edge > 0) {
-      divide_edge(d, find_runs(chains[d.edge], charts_at, map, blocks), map, result.constraints);
+      divide_edge(d, runs.of(chains[d.edge]), map, result.constraints);
     } else {
       divide_wall(d, side_faces, map, blocks, result.constraints);
     }

@@ -24,6 +24,7 @@
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/demands.h"
+#include "pipeline/edge_runs.h"
 #include "pipeline/loose_nodes.h"
 #include "pipeline/pose.h"
 #include "pipeline/realise.h"
@@ -71,6 +72,7 @@ struct Candidate {
   double refine = 1;          // on the number of cells along an edge
   double tet_size = 1;        // on the size of the tets
   LabelVariant labels{};
+  bool roomy = false;         // cells enough for CAD edges that go on from each other inside a chart
 };
 
 struct Tets {
@@ -122,6 +124,12 @@ struct Unfinished {
   int choice = -1;  // of the padding plans
   FitReport fitted;
   MeshReport report;
+};
+
+/// CAD edges on a grid, and where they lack room.
+struct Routed {
+  Association association;
+  std::vector<CrowdedCorner> crowded;
 };
 
 class Run {
@@ -334,12 +342,14 @@ class Run {
 
   MeshResult attempt(const Candidate& c, bool first, const Divisions& divisions) {
     Unfinished u = on_grid(c, first, divisions);
-    Association association = associated(u);
+    Routed routes = routed(u, u.complex);
+    if (!routes.association.lost_edges.empty()) give_room(u, routes, divisions);
+    Association association = divided(u, std::move(routes));
     if (!options_.coarsest && c.min_bend == 0 && size_ > kCoarse * model_.diagonal()) {
       for (const double finer : kFiner) {
         if (association.lost_edges.empty()) break;
         if (finer <= c.refine) continue;
-        Candidate refined = c;
+        Candidate refined = u.candidate;
         refined.refine = finer;
         Unfinished next = on_grid(refined, false, divisions);
         Association found = associated(next);
@@ -356,6 +366,18 @@ class Run {
     return finished(std::move(u));
   }
 
+  // Edges may have found no path because too few cells are there for them.
+  void give_room(Unfinished& u, Routed& routes, const Divisions& divisions) {
+    Candidate roomy = u.candidate;
+    roomy.roomy = true;
+    Unfinished next = on_grid(roomy, false, divisions);
+    if (next.quantization.value == u.quantization.value) return;
+    Routed found = routed(next, next.complex);
+    if (found.association.lost_edges.size() >= routes.association.lost_edges.size()) return;
+    u = std::move(next);
+    routes = std::move(found);
+  }
+
   // The candidate up to its grid of hexahedra.
   Unfinished on_grid(const Candidate& c, bool first, const Divisions& divisions) {
     Unfinished u;
@@ -363,7 +385,6 @@ class Run {
     u.report = report_;
     u.structure = &structure(c);
     const Structure& s = *u.structure;
-    const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
     u.options.ignored = ignored_;
     u.options.edge_chains = edge_chains(model_, s.tets);
     const std::vector<char> out = left_out(c);
@@ -374,19 +395,28 @@ class Run {
         monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
       }
     }
-    u.quantization = stage("quantize", [&] { return quantized(s, u.options, divisions, scale); });
+    u.quantization = stage("quantize", [&] { return quantized(c, s, u.options, divisions); });
     u.complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
     u.options.size = typical_edge(u.complex.mesh);
     return u;
   }
 
-  Quantization quantized(const Structure& s, const AssociateOptions& association, const Divisions& divisions, double scale) const {
+  Quantization quantized(const Candidate& c, const Structure& s, const AssociateOptions& association, const Divisions& divisions) const {
+    const double scale = options_.coarsest ? kCoarsest : c.refine / size_;
     MeshOptions demanded = options_;
     demanded.divisions = divisions;
     const QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
     QuantizeOptions roomy = asked;
-    const auto room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
+    auto room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
+    if (c.roomy) {
+      auto chains = association.edge_chains;
+      for (const FeatureEdge& e : s.features.edges) {
+        if (e.capture == EdgeCapture::kLost) chains[e.edge].clear();
+      }
+      const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
+      room.insert(room.end(), more.begin(), more.end());
+    }
     roomy.constraints.insert(roomy.constraints.end(), room.begin(), room.end());
     try {
       return quantize(s.blocks, s.map, roomy, monitor_);
@@ -433,23 +463,28 @@ class Run {
     return result;
   }
 
+  Association associated(Unfinished& u) { return divided(u, routed(u, u.complex)); }
+
+  Routed routed(const Unfinished& u, const HexComplex& complex) {
+    Routed result;
+    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+    result.association =
+        stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_, &result.crowded); });
+    return result;
+  }
+
   // Where vertices lack mesh edges for their CAD edges the grid is divided there, as long as that captures more of them.
-  Association associated(Unfinished& u) {
-    std::vector<CrowdedCorner> crowded;
-    const auto try_on = [&](const HexComplex& complex) {
-      const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-      return stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_, &crowded); });
-    };
-    Association association = try_on(u.complex);
+  Association divided(Unfinished& u, Routed routes) {
+    Association association = std::move(routes.association);
     HexComplex roomy = u.complex;
-    for (int round = 0; round < kRoomRounds && !crowded.empty(); ++round) {
+    for (int round = 0; round < kRoomRounds && !routes.crowded.empty(); ++round) {
       int added = 0;
-      for (const CrowdedCorner& c : crowded) added += make_room(roomy.mesh, {roomy.quads, roomy.quad_chart, roomy.quad_triangle}, c);
+      for (const CrowdedCorner& c : routes.crowded) added += make_room(roomy.mesh, {roomy.quads, roomy.quad_chart, roomy.quad_triangle}, c);
       if (added == 0) break;
-      monitor_.log("pad: room made at " + std::to_string(crowded.size()) + " vertices");
-      Association next = try_on(roomy);
-      if (next.lost_edges.size() >= association.lost_edges.size()) continue;
-      association = std::move(next);
+      monitor_.log("pad: room made at " + std::to_string(routes.crowded.size()) + " vertices");
+      routes = routed(u, roomy);
+      if (routes.association.lost_edges.size() >= association.lost_edges.size()) continue;
+      association = std::move(routes.association);
       u.complex = roomy;
     }
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +

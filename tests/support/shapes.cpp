@@ -211,6 +211,21 @@ std::string ribbed_cup(double radius) {
   return text(solid(BRepAlgoAPI_Fuse(BRepAlgoAPI_Cut(hull, hole).Shape(), rib).Shape()));
 }
 
+std::string oblique_bore() {
+  const double lean = std::numbers::pi / 9;
+  const gp_Ax2 axis({16.5, 7, 14}, gp_Dir(std::sin(lean), 0, -std::cos(lean)));
+  return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {20, 14, 12}), BRepPrimAPI_MakeCylinder(axis, 1.8, 40).Shape()).Shape()));
+}
+
+std::string drilled_block() {
+  const auto half = [](double from, double to) {
+    const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(gp_Ax2({10, 10, 8}, {0, 0, 1}), 1.2, 20).Shape();
+    const TopoDS_Shape tip = BRepPrimAPI_MakeCone(gp_Ax2({10, 10, 8}, {0, 0, -1}), 1.2, 0, 0.72).Shape();
+    return BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(block({0, from, 0}, {20, to, 16}), hole).Shape(), tip).Shape();
+  };
+  return text(TopExp_Explorer(BRepAlgoAPI_Fuse(half(0, 10), half(10, 20)).Shape(), TopAbs_SOLID).Current());
+}
+
 std::string moved(const std::string& brep, double degrees, double x, double y, double z) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1({0, 0, 0}, {1, 2, 3}), degrees * std::numbers::pi / 180);

@@ -1,0 +1,79 @@
+// Bores that come out aslant, and the tips that drills leave.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "blocks/blocks.h"
+#include "label/features.h"
+#include "pipeline/edge_runs.h"
+#include "pipeline/inspect.h"
+#include "pipeline/pipeline.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+/// The labels on the triangles of the CAD faces of one kind.
+std::set<int> labels_on(const CadModel& model, const LabelledPart& part, SurfaceKind kind) {
+  std::set<int> labels;
+  for (std::size_t t = 0; t < part.tets.triangles.size(); ++t) {
+    if (model.face(part.tets.triangle_face[t]).kind == kind) labels.insert(part.labelling.label[t]);
+  }
+  return labels;
+}
+
+// The wall of the wedge faces -X and a little -Z: with one label it would have no border to the side it comes out of.
+TEST(ObliqueBore, TheWedgeItLeavesHasTwoLabels) {
+  const CadModel model = CadModel::from_brep(shapes::oblique_bore());
+  const LabelledPart part = label_part(model, MeshOptions(), Monitor(), Until::kLabels);
+  const Inspection found = inspect(part);
+  EXPECT_TRUE(found.violations.valid());
+  EXPECT_TRUE(found.turning_points.empty());
+  const std::set<int> labels = labels_on(model, part, SurfaceKind::kCylinder);
+  EXPECT_EQ(labels.count(1), 1u);
+  EXPECT_EQ(labels.count(5), 1u);
+}
+
+TEST(ObliqueBore, IsMeshedWithAllItsEdges) {
+  const CadModel model = CadModel::from_brep(shapes::oblique_bore());
+  MeshOptions options;
+  options.size = 1.5;
+  const MeshResult result = mesh(model, options, Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_GT(result.report.quality.min_scaled_jacobian, 0.2);
+}
+
+TEST(DrilledBlock, TheTipIsADisc) {
+  const CadModel model = CadModel::from_brep(shapes::drilled_block());
+  const LabelledPart part = label_part(model, MeshOptions(), Monitor(), Until::kLabels);
+  EXPECT_TRUE(inspect(part).violations.valid());
+  EXPECT_EQ(labels_on(model, part, SurfaceKind::kCone), std::set<int>{4});
+}
+
+// Two edges lead from the tip to the rim, in one line: they need two cells though nothing of the map stands between their ends.
+TEST(DrilledBlock, TheTipHasANode) {
+  const CadModel model = CadModel::from_brep(shapes::drilled_block());
+  MeshOptions options;
+  options.size = 3;
+  const LabelledPart part = label_part(model, options, Monitor());
+  const auto constraints = room_for_edges(edge_chains(model, part.tets), part.tets, part.map, extract_blocks(part.tets, part.map, Monitor()));
+  ASSERT_FALSE(constraints.empty());
+  for (const DistanceConstraint& c : constraints) {
+    EXPECT_EQ(part.map.charts[c.low].axis, part.map.charts[c.high].axis);
+    EXPECT_LT(part.map.charts[c.low].value, part.map.charts[c.high].value);
+    EXPECT_GE(c.at_least, 2);
+  }
+  const MeshResult result = mesh(model, options, Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_TRUE(result.association.lost_vertices.empty());
+}
+
+TEST(DrilledBlock, EdgesThatEndAtChartsAskNothing) {
+  const CadModel model = CadModel::from_brep(shapes::box(10, 20, 30));
+  const LabelledPart part = label_part(model, MeshOptions(), Monitor());
+  EXPECT_TRUE(room_for_edges(edge_chains(model, part.tets), part.tets, part.map, extract_blocks(part.tets, part.map, Monitor())).empty());
+}
+
+}  // namespace
+}  // namespace polycube

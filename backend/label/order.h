@@ -7,7 +7,7 @@
 
 namespace polycube {
 
-/// Charts of one axis each of which has to lie beyond the one before it, and the first beyond the last: no map has that. A ramp round a hole, flat in the
+/// Charts of one axis each of which has to lie beyond the one before it, and the first beyond the last. A sign that no map has that, not a proof: where boundaries wind about the axis one may exist. A ramp round a hole, flat in the
 /// image, whose ends a step joins is the shortest, one chart.
 struct RisingLoop {
   int axis = 0;

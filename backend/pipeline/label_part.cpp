@@ -66,8 +66,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   part.label_report = best.report;
   part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
   book("label");
-  part.failure = unrealisable(part);
-  if (until == Until::kMap && !part.failure) {
+  if (until == Until::kMap) {
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size;
     if (options.threads > 0) deform_options.threads = options.threads;
@@ -76,7 +75,8 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
       part.map = std::move(realised.map);
       part.flipped = realised.report.flipped;
     } catch (const StageFailed& e) {
-      part.failure = e;
+      const std::optional<StageFailed> loop = unrealisable(part);
+      part.failure = loop ? *loop : e;
     }
     book("deform");
   }

@@ -7,6 +7,8 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "core/charts.h"
@@ -14,6 +16,7 @@
 #include "label/divide.h"
 #include "label/frame.h"
 #include "label/graph_cut.h"
+#include "label/halves.h"
 #include "label/search.h"
 #include "label/straighten.h"
 #include "label/strays.h"
@@ -23,16 +26,13 @@ namespace {
 
 // A planar face within about 15 degrees of an axis has the label of that axis.
 constexpr double kAlignedCosine = 0.966;
-// Planes further off the axes than about 5 degrees may be halved.
-constexpr double kLevelCosine = 0.996;
 // Normals within about 10 degrees of their mean: as good as a plane.
 constexpr double kFlatCosine = 0.985;
+// A cone whose normals are within about 37 degrees of its axis is blunt.
+constexpr double kBluntCosine = 0.8;
 constexpr double kSharpBend = std::numbers::pi / 6;
 // Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
 constexpr double kSmallShare = 0.04, kNarrow = 1.5;
-// A cut nearer to a CAD vertex of its face than the first share of the face's extent moves on by the second: through the vertex it would leave
-// open which side the vertex is on.
-constexpr double kOffVertex = 0.04, kAside = 0.15;
 // Divisions of oblique planes tried for one labelling.
 constexpr int kMostDivisions = 60;
 // Where the rise of strictness begins.
@@ -62,8 +62,14 @@ Vec3 triangle_normal(const TetMesh& mesh, int t) {
 // On cones and other surfaces round an axis of the frame the labels across the axis are preferred: a ring-shaped chart border in the middle of
 // such a face would cut it where nothing in the CAD asks for it, and its outer rim could only be reached diagonally. Tori are treated as the fillets
 // are that they continue.
+//
+// A blunt cone, such as the tip that a drill leaves, counts as the disc that it all but is: labels across its axis would meet in its tip.
 Vec3 as_seen(const Setup& s, int face_id, Vec3 n) {
   const CadFace& face = s.model.face(face_id);
+  if (face.kind == SurfaceKind::kCone) {
+    const Vec3 axis = s.frame * face.axis;
+    if (std::abs(n.dot(axis)) > kBluntCosine) return n.dot(axis) > 0 ? axis : Vec3(-axis);
+  }
   const bool ring = face.kind == SurfaceKind::kTorus && s.options.widest_bend > std::numbers::pi / 4;
   const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kRevolution || ring;
   if (!round) return n;
@@ -168,75 +174,6 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
   return labels;
 }
 
-// Faces that got one label may still have to take two: an oblique plane half way down its slope (the hypotenuse of a rib, a side of a pyramid),
-// a bent face where its normal passes 45 degrees. Returns the half of each triangle; the search decides whether they differ.
-struct Halves {
-  std::vector<int> half;              // per triangle
-  std::vector<Vec3> slope;            // per CAD face: direction across the cut of an oblique plane, else zero
-  std::vector<double> middle;         // per CAD face: where it is cut along the slope
-  std::vector<Vec3> centre;           // per CAD face divided in thirds: where they meet, in the frame
-};
-
-Halves halves(const Setup& s) {
-  const auto n = s.mesh.triangles.size();
-  std::vector<Vec3> slope(s.model.face_count() + 1, Vec3::Zero());
-  std::vector<double> low(slope.size(), std::numeric_limits<double>::infinity()), high(slope.size(), -std::numeric_limits<double>::infinity());
-  const auto along = [&](std::size_t t, int k) { return slope[s.mesh.triangle_face[t]].dot(s.frame * s.mesh.points[s.mesh.triangles[t][k]]); };
-  for (std::size_t t = 0; t < n; ++t) {
-    const int f = s.mesh.triangle_face[t];
-    if (s.has_tip(f) || !s.flat[f] || s.normal[t].cwiseAbs().maxCoeff() > kLevelCosine) continue;
-    if (slope[f].isZero()) slope[f] = s.cuts[f].across;
-    if (slope[f].isZero()) {
-      int axis = 0;
-      s.normal[t].cwiseAbs().maxCoeff(&axis);
-      slope[f] = (Vec3::Unit(axis) - s.normal[t][axis] * s.normal[t]).normalized();
-    }
-    for (int k = 0; k < 3; ++k) {
-      low[f] = std::min(low[f], along(t, k));
-      high[f] = std::max(high[f], along(t, k));
-    }
-  }
-  std::vector<double> middle(slope.size());
-  for (int f = 1; f <= s.model.face_count(); ++f) {
-    if (slope[f].isZero()) continue;
-    const double extent = high[f] - low[f];
-    middle[f] = low[f] + s.cuts[f].share * extent;
-    for (int e : s.model.face(f).edges) {
-      for (int v : s.model.edge(e).vertices) {
-        const double off = middle[f] - slope[f].dot(s.frame * s.model.vertex(v));
-        if (std::abs(off) < kOffVertex * extent) middle[f] += (off < 0 ? -kAside : kAside) * extent;
-      }
-    }
-  }
-  std::vector<Vec3> centre(slope.size(), Vec3::Zero());
-  const auto middle_of = [&](std::size_t t) -> Vec3 {
-    const auto& [a, b, c] = s.mesh.triangles[t];
-    return s.frame * ((s.mesh.points[a] + s.mesh.points[b] + s.mesh.points[c]) / 3);
-  };
-  std::vector<double> area(slope.size(), 0);
-  for (std::size_t t = 0; t < n; ++t) {
-    centre[s.mesh.triangle_face[t]] += s.area[t] * middle_of(t);
-    area[s.mesh.triangle_face[t]] += s.area[t];
-  }
-  for (std::size_t f = 1; f < centre.size(); ++f) centre[f] /= area[f];
-  std::vector<int> half(n, 0);
-  for (std::size_t t = 0; t < n; ++t) {
-    const int f = s.mesh.triangle_face[t];
-    if (s.has_tip(f)) {
-      half[t] = s.tips->upper[t];
-    } else if (s.cuts[f].thirds) {
-      half[t] = third_at(s.frame * s.model.face(f).axis, middle_of(t) - centre[f]);
-    } else if (!slope[f].isZero()) {
-      half[t] = (along(t, 0) + along(t, 1) + along(t, 2)) / 3 > middle[f];
-    } else if (s.whole[f] && !s.flat[f]) {
-      int axis = 0;
-      s.normal[t].cwiseAbs().maxCoeff(&axis);
-      half[t] = 2 * axis + (s.normal[t][axis] < 0);
-    }
-  }
-  return {std::move(half), std::move(slope), std::move(middle), std::move(centre)};
-}
-
 // The longest side of the box about some triangles.
 double extent(const TetMesh& mesh, const std::vector<int>& triangles) {
   Vec3 low = mesh.points[mesh.triangles[triangles.front()][0]], high = low;
@@ -259,8 +196,8 @@ struct Split {
 Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves& halves, const Barrels& barrels, double edge) {
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
-  std::vector<int> kind = halves.half;
-  for (int t = 0; t < n; ++t) kind[t] += 8 * labels[t] + 64 * barrels.sector(t);
+  std::vector<int> kind;
+  for (int t = 0; t < n; ++t) kind.push_back(halves.half(t) + 8 * labels[t] + 64 * barrels.sector(t));
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {
     region.assign(n, -1);
@@ -313,7 +250,7 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
 // A labelling of regions, before the mesh is cut for it.
 struct Plan {
   Setup setup;
-  Halves half;
+  std::optional<Halves> half;  // stands on the setup
   Barrels barrels;
   Split split;
   RegionGraph graph;
@@ -321,30 +258,44 @@ struct Plan {
   Violations left;
 };
 
+// The halves of a side of a barrel count as one for the borders to its other sides, which so do not bend where they pass from half to half. Returns the
+// region that stands for each.
+std::vector<int> join_halves(const RegionGraph& graph, const Split& split, const Halves& halves) {
+  std::map<std::array<int, 2>, std::vector<int>> sides;
+  for (int r = 0; r < static_cast<int>(graph.regions.size()); ++r) {
+    if (const int face = graph.regions[r].face; halves.barrel(face)) sides[{face, split.kind[r] / 8}].push_back(r);
+  }
+  std::vector<int> joined(graph.regions.size());
+  std::iota(joined.begin(), joined.end(), 0);
+  for (const auto& [side, r] : sides) {
+    if (r.size() == 2 && split.kind[r[0]] != split.kind[r[1]]) joined[r[1]] = r[0];
+  }
+  return joined;
+}
+
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
-std::vector<BorderFunction> borders(const Plan& plan) {
-  const auto& [s, halves, barrels, split, graph, region_label, left] = plan;
-  std::vector<BorderFunction> result;
+std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& joined) {
+  const auto& [s, half, barrels, split, graph, region_label, left] = plan;
+  const Halves& halves = *half;
+  std::vector<BorderFunction> result, half_way;
   std::set<std::pair<int, int>> done;
   for (const Arc& arc : graph.arcs) {
-    const int a = arc.left, b = arc.right, face = graph.regions[a].face;
+    const int a = joined[arc.left], b = joined[arc.right], face = graph.regions[a].face;
     if (s.has_tip(face)) continue;  // cut already
-    if (graph.regions[b].face != face || region_label[a] == region_label[b] || !done.insert(std::minmax(a, b)).second) continue;
+    if (graph.regions[b].face != face || region_label[arc.left] == region_label[arc.right] || !done.insert(std::minmax(a, b)).second) continue;
     std::vector<int> ends;
     for (const Arc& other : graph.arcs) {
-      if (std::minmax(other.left, other.right) != std::minmax(a, b) || other.start < 0) continue;
+      const int c = joined[other.left], d = joined[other.right];
+      if (std::minmax(c, d) != std::minmax(a, b) || other.start < 0) continue;
       for (int j : {other.start, other.end}) ends.push_back(graph.junctions[j].node);
     }
-    const int p = split.kind[a], q = split.kind[b];
+    const int p = split.kind[arc.left], q = split.kind[arc.right];
     if (s.cuts[face].thirds) {
-      result.push_back({a, b, [&s, n = Vec3(s.frame * s.model.face(face).axis), c = halves.centre[face], p, q](int node) {
-                          return third_side(n, s.frame * s.mesh.points[node] - c, p % 8, q % 8);
-                        }});
+      result.push_back({a, b, halves.third_border(face, p % 8, q % 8), ends});
       continue;
     }
-    if (!halves.slope[face].isZero() && p % 8 != q % 8) {
-      const double sign = p % 8 > q % 8 ? 1 : -1;
-      result.push_back({a, b, [&s, sign, d = halves.slope[face], m = halves.middle[face]](int n) { return sign * (d.dot(s.frame * s.mesh.points[n]) - m); }, ends});
+    if (halves.sloping(face) && p % 8 != q % 8 && p / 8 == q / 8) {
+      half_way.push_back({p % 8 > q % 8 ? arc.left : arc.right, p % 8 > q % 8 ? arc.right : arc.left, halves.border(face, p / 8 % 8), ends});
       continue;
     }
     const int l = s.whole[face] ? p % 8 : p / 8 % 8, m = s.whole[face] ? q % 8 : q / 8 % 8;
@@ -363,6 +314,8 @@ std::vector<BorderFunction> borders(const Plan& plan) {
                       },
                       ends});
   }
+  // Last, when every side has its triangles.
+  result.insert(result.end(), half_way.begin(), half_way.end());
   return result;
 }
 
@@ -381,8 +334,8 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
   double edge = 0;
   for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
   edge /= static_cast<double>(mesh.triangles.size());
-  plan->half = halves(s);
-  plan->split = split_regions(s, first, plan->half, plan->barrels, edge);
+  plan->half.emplace(FaceShapes{model, mesh, s.frame, s.normal, s.whole, s.flat, s.cuts, s.tips}, first);
+  plan->split = split_regions(s, first, *plan->half, plan->barrels, edge);
   plan->graph = build_region_graph(mesh, plan->split.region);
   RegionGraph& graph = plan->graph;
   std::vector<int> given(model.face_count() + 1, -1);
@@ -460,7 +413,7 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   for (bool changed = true; changed && !best->left.valid();) {
     changed = false;
     for (int f : faces_at_fault(*best)) {
-      if (model.face(f).kind != SurfaceKind::kPlane || best->half.slope[f].isZero()) continue;
+      if (model.face(f).kind != SurfaceKind::kPlane || !best->half->sloping(f)) continue;
       for (const FaceCut& cut : plane_cuts(frame * model.face(f).axis)) {
         if (best->left.valid() || tries++ >= kMostDivisions) return best;
         std::vector<FaceCut> cuts = best->setup.cuts;
@@ -487,7 +440,10 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   const RegionGraph& graph = plan->graph;
   Labelling result;
   result.frame = plan->setup.frame;
-  for (int r : cut_along(mesh, graph.triangle_region, borders(*plan), monitor)) result.label.push_back(plan->label[r]);
+  const std::vector<int> joined = join_halves(graph, plan->split, *plan->half);
+  std::vector<int> triangle_region;
+  for (int r : graph.triangle_region) triangle_region.push_back(joined[r]);
+  for (int r : cut_along(mesh, triangle_region, borders(*plan, joined), monitor)) result.label.push_back(plan->label[r]);
   split_tied_edges(mesh, result.label, monitor);
   absorb_strays(mesh, result, monitor);
   const Violations left = find_violations(mesh, result.frame, result.label);

@@ -173,8 +173,15 @@ class Run {
       }
       return best && good_enough(*best);
     };
-    for (const Candidate& c : candidates(options_, label_order())) {
+    std::vector<Candidate> list = candidates(options_, label_order());
+    const std::size_t listed = list.size();
+    for (std::size_t i = 0; i < list.size(); ++i) {
       if (fits_left_ <= (best ? kReservedFits / 2 : kReservedFits)) break;
+      const Candidate c = list[i];
+      if (i < listed && doubtful(c)) {
+        list.push_back(c);
+        continue;
+      }
       const auto work = [&] {
         MeshResult result = attempt(c, !best && !failure, options_.divisions);
         retry_padded(c, result);
@@ -259,6 +266,16 @@ class Run {
       return stage("label", [&] { return choice.order(); });
     } catch (const StageFailed&) {
       return {LabelVariant{}};
+    }
+  }
+
+  // Invalid labels, where others are valid, take long to map and seldom have a map: they wait until all else was tried.
+  bool doubtful(const Candidate& c) {
+    try {
+      LabelChoice& choice = labellings(c.tet_size);
+      return !choice.labelled(c.labels).report.valid() && choice.labelled(choice.order().front()).report.valid();
+    } catch (const StageFailed&) {
+      return false;
     }
   }
 

@@ -6,6 +6,8 @@ namespace polycube {
 namespace {
 
 constexpr int kRounds = 4;
+// Folds that features may add in all.
+constexpr int kFewFolds = 5;
 
 }  // namespace
 
@@ -48,14 +50,14 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     }
     int worst = 0;
     for (const FeatureChart& f : features.charts) worst = std::max(worst, blame[f.edge]);
-    if (worst == 0) break;
-    if (round + 1 == kRounds) return give_up();
+    if (worst == 0 || round + 1 == kRounds) break;
     // Those that fold much go first: others may only stand beside them.
     without([&](int e) { return 3 * blame[e] >= worst; });
     if (features.charts.empty()) return bare;
   }
-  // Folds that cannot be blamed on single features: none of them is worth it.
-  return result.report.flipped <= bare.report.flipped + 5 ? result : give_up();
+  // Many folds more that cannot be blamed on single features: none of them is worth it. The blocks bear a few.
+  const int folds = bare.report.flipped;
+  return result.report.flipped <= folds + std::max(kFewFolds, folds / 2) ? result : give_up();
 }
 
 }  // namespace polycube

@@ -17,15 +17,6 @@ TEST(Cusps, AnArmTangentToABarrelIsMeshedCompletely) {
   EXPECT_GE(result.report.quality.min_scaled_jacobian, 0.3);
 }
 
-TEST(Cusps, AnArmAlmostAsThickAsItsBarFoldsNothing) {
-  const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
-  const LabelledPart part = label_part(model, MeshOptions(), Monitor());
-  EXPECT_EQ(part.label_report.turning_points + part.label_report.bad_turns, 0);
-  EXPECT_TRUE(part.label_report.valid());
-  EXPECT_FALSE(part.failure);
-  EXPECT_EQ(part.flipped, 0);
-}
-
 TEST(Cusps, AnEdgeBetweenChartsThatStandLevelIsCaptured) {
   // The rib's hypotenuse and the plate's end are one chart; the edge between them joins the plate's top on both sides of the rib.
   const LabelledPart part = label_part(CadModel::from_brep(shapes::ribbed_plate(20, 2)), MeshOptions(), Monitor());

@@ -198,6 +198,21 @@ std::string turned(double radius, double height, double groove) {
   return text(ShapeCustom::ConvertToRevolution(turned));
 }
 
+std::string tangent_arm(double radius, double bore) {
+  const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(radius, 2 * radius).Shape(), arm = block({0, -radius, 0.75 * radius}, {3 * radius, radius, 1.25 * radius});
+  return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(bar, arm).Shape(), BRepPrimAPI_MakeCylinder(bore, 2 * radius).Shape()).Shape()));
+}
+
+std::string ribbed_plate(double width, double slope) {
+  BRepBuilderAPI_MakePolygon rib;
+  rib.Add({0, 0.4 * width, 0});
+  rib.Add({width, 0.4 * width, 0});
+  rib.Add({0, 0.4 * width, slope * width});
+  rib.Close();
+  const TopoDS_Shape wedge = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(rib.Wire()).Face(), gp_Vec(0, 0.2 * width, 0)).Shape();
+  return text(solid(BRepAlgoAPI_Fuse(block({0, 0, -0.2 * width}, {width, width, 0}), wedge).Shape()));
+}
+
 std::string half_cylinder(double radius, double height) {
   const TopoDS_Shape tool = block({-2 * radius, -2 * radius, -height}, {2 * radius, 0, 2 * height});
   return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), tool).Shape()));

@@ -6,6 +6,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,6 +23,8 @@ namespace polycube {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
+// Times the limit on the processor's time, by the clock: a child that waits for something works no more.
+constexpr double kPatience = 4;
 
 /// Kills and buries the child unless it has been buried.
 class Child {
@@ -34,6 +37,13 @@ class Child {
     kill(pid_, SIGKILL);
     while (waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
     }
+  }
+  /// Processor time so far, seconds.
+  double worked() const {
+    clockid_t clock;
+    timespec time{};
+    if (clock_getcpuclockid(pid_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
   bool ended(int& status) {
     const pid_t result = waitpid(pid_, &status, WNOHANG);
@@ -107,7 +117,7 @@ std::string run_worker(const std::vector<std::string>& command, const std::strin
   int status = 0;
   while (!child.ended(status)) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (elapsed > seconds) return "Gmsh ran longer than " + std::to_string(std::lround(seconds)) + " s";
+    if (child.worked() > seconds || elapsed > kPatience * seconds) return "Gmsh ran longer than " + std::to_string(std::lround(seconds)) + " s";
     monitor.progress("tet", 0.9 * elapsed / (elapsed + 2));
     std::this_thread::sleep_for(kPoll);
   }

@@ -106,7 +106,7 @@ std::string to_json(const MeshReport& report) {
   json["seconds"] = seconds;
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["counts"] = {{"tets", report.tets},   {"charts", report.charts}, {"blocks", report.blocks},
-                    {"hexes", report.hexes}, {"nodes", report.nodes},   {"padded_hexes", report.padded_hexes}};
+                    {"hexes", report.hexes}, {"nodes", report.nodes},   {"padded_hexes", report.padded_hexes}, {"loose_nodes", report.loose_nodes}};
   json["quality"] = {{"min_scaled_jacobian", report.quality.min_scaled_jacobian},
                      {"mean_scaled_jacobian", report.quality.mean_scaled_jacobian},
                      {"inverted", report.quality.inverted},
@@ -128,8 +128,7 @@ std::string to_json(const MeshReport& report) {
   };
   json["cad"] = {{"vertices", entities(0, c.vertices, c.vertices_captured, c.lost_vertices, c.ignored_vertices)},
                  {"edges", entities(1, c.edges, c.edges_captured, c.lost_edges, c.ignored_edges)},
-                 {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)},
-                 {"loose_nodes", report.loose_nodes}};
+                 {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)}};
   const QuantizationRecord& q = report.quantization;
   json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
                           {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};

@@ -67,6 +67,7 @@ TEST(Report, JsonHoldsWhatThePromiseSays) {
   report.stages = {{"tet", 1.5}, {"label", 0.5}};
   report.capture = capture(association_of_end(), 8, {1, 2, 3}, 3);
   report.shape.warpage = {0, 0.125, 0.25};
+  report.loose_nodes = 3;
   report.warnings = {"a \"quoted\" line"};
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["version"], "1.2.3");
@@ -75,6 +76,9 @@ TEST(Report, JsonHoldsWhatThePromiseSays) {
   EXPECT_DOUBLE_EQ(json["seconds"].get<double>(), 2);
   EXPECT_EQ(json["cad"]["edges"]["lost"][0], "Edge3");
   EXPECT_TRUE(json["cad"]["edges"]["ignored"].empty());
+  // Every entry is one kind of entity: who reads it goes through them all.
+  for (const auto& kind : json["cad"]) EXPECT_TRUE(kind["lost"].is_array());
+  EXPECT_EQ(json["counts"]["loose_nodes"], 3);
   EXPECT_EQ(json["quality"]["histogram"].size(), 10u);
   EXPECT_DOUBLE_EQ(json["quality"]["warpage"]["max"].get<double>(), 0.25);
   EXPECT_EQ(json["warnings"][0], "a \"quoted\" line");

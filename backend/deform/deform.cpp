@@ -49,10 +49,10 @@ Mat3 nearest_rotation(const Mat3& m) {
 class Solver {
  public:
   Solver(const TetMesh& mesh, const std::vector<Element>& elements, int threads)
-      : mesh_(mesh), elements_(elements), threads_(threads), rotation_(elements.size(), Mat3::Identity()), image_(mesh.points.size()) {}
+      : mesh_(mesh), elements_(elements), threads_(threads), rotation_(elements.size(), Mat3::Identity()), image_(mesh.points.size(), Vec3::Zero()) {}
 
-  /// Factorises the systems of the dimensions in `which`.
-  void factorise(const std::array<UnionFind, 3>& groups, const std::vector<int>& which) {
+  /// Sets up the systems of the dimensions in `which`.
+  void set_up(const std::array<UnionFind, 3>& groups, const std::vector<int>& which) {
     for_chunks(static_cast<int>(which.size()), 1, threads_, [&](int i, int, int) {
       system_[which[i]] = std::make_unique<Coordinate>(mesh_, elements_, groups[which[i]]);
     });
@@ -76,7 +76,9 @@ class Solver {
  private:
   void solve() {
     for_chunks(3, 1, threads_, [&](int d, int, int) {
-      const Vector x = system_[d]->solve(mesh_, elements_, rotation_, d);
+      Vector guess(static_cast<Eigen::Index>(image_.size()));
+      for (std::size_t i = 0; i < image_.size(); ++i) guess[static_cast<Eigen::Index>(i)] = image_[i][d];
+      const Vector x = system_[d]->solve(mesh_, elements_, rotation_, d, guess);
       for (std::size_t i = 0; i < image_.size(); ++i) image_[i][d] = x[static_cast<Eigen::Index>(i)];
     });
   }
@@ -136,7 +138,7 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
     }
   };
   monitor.progress("deform", 0);
-  solver.factorise(groups, {0, 1, 2});
+  solver.set_up(groups, {0, 1, 2});
   solver.start();
   const int trial = std::min(options.rotations, kTrialRounds);
   rounds(0, trial);
@@ -148,7 +150,7 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
   }
   monitor.progress("deform", 0.4);
   if (!changed.empty()) {
-    solver.factorise(groups, changed);
+    solver.set_up(groups, changed);
     solver.start();
   }
   rounds(changed.empty() ? trial : 0, options.rotations);

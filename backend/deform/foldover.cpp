@@ -143,27 +143,29 @@ class Problem {
   mutable std::vector<Eigen::Matrix<double, 3, 4>> force_;  // per tet, from one evaluation to the next
 };
 
-// L-BFGS with the inverse of the quadratic part as initial Hessian. Returns the steps made.
+// L-BFGS with the inverse of the quadratic part as initial Hessian. That is linear: of the differences of gradients it is the difference of what it makes of the
+// gradients, so that one application a step does. Returns the steps made.
 int descend(const Problem& problem, Vector& x, double epsilon, int steps, const Monitor& monitor) {
   struct Pair {
-    Vector s, y;
+    Vector s, y, inverse_y;  // the last: preconditioned
     double rho;
   };
   std::deque<Pair> memory;
   Vector g;
   double e = problem.energy(x, epsilon, &g);
+  Vector inverse_g = problem.precondition(g);
   for (int step = 0; step < steps; ++step) {
     monitor.check();
-    Vector q = g;
+    Vector q = g, r = inverse_g;
     std::vector<double> alpha(memory.size());
     for (std::size_t i = memory.size(); i-- > 0;) {
       alpha[i] = memory[i].rho * memory[i].s.dot(q);
       q -= alpha[i] * memory[i].y;
+      r -= alpha[i] * memory[i].inverse_y;
     }
-    Vector r = problem.precondition(q);
     if (!memory.empty()) {
       const Pair& last = memory.back();
-      r *= 1 / (last.rho * last.y.dot(problem.precondition(last.y)));
+      r *= 1 / (last.rho * last.y.dot(last.inverse_y));
     }
     for (std::size_t i = 0; i < memory.size(); ++i) r += memory[i].s * (alpha[i] - memory[i].rho * memory[i].y.dot(r));
     const double slope = -g.dot(r);
@@ -178,7 +180,8 @@ int descend(const Problem& problem, Vector& x, double epsilon, int steps, const 
       length *= 0.5;
     }
     if (length < 1) problem.energy(next, epsilon, &next_g);
-    Pair pair{next - x, next_g - g, 0};
+    Vector next_inverse = problem.precondition(next_g);
+    Pair pair{next - x, next_g - g, next_inverse - inverse_g, 0};
     const double curvature = pair.s.dot(pair.y);
     if (curvature > 1e-14 * pair.s.norm() * pair.y.norm()) {
       pair.rho = 1 / curvature;
@@ -188,6 +191,7 @@ int descend(const Problem& problem, Vector& x, double epsilon, int steps, const 
     const double gain = (e - next_e) / std::abs(e);
     x = std::move(next);
     g = std::move(next_g);
+    inverse_g = std::move(next_inverse);
     e = next_e;
     if (gain < 1e-5) return step + 1;
   }

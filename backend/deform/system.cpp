@@ -1,11 +1,15 @@
 #include "deform/system.h"
 
 #include <Eigen/LU>
-#include <iostream>  // MetisSupport needs it and does not say so
-#include <Eigen/MetisSupport>
-#include <mutex>
 
 namespace polycube {
+namespace {
+
+// Of the right side: what a solution may leave. The rotations that the right side is made of are further off than this until the last round.
+constexpr double kResidual = 1e-7;
+constexpr int kMostSteps = 200;
+
+}  // namespace
 
 Element make_element(const std::vector<Vec3>& points, const Tet& tet) {
   Mat3 edges;
@@ -24,12 +28,6 @@ Mat3 jacobian(const Tet& tet, const Element& element, const std::vector<Vec3>& i
   return j;
 }
 
-void Dissection::operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const {
-  static std::mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  Eigen::MetisOrdering<int>()(matrix, permutation);
-}
-
 Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements, UnionFind groups) : unknown_(mesh.points.size(), -1) {
   const int n = static_cast<int>(mesh.points.size());
   for (int i = 0; i < n; ++i) {
@@ -38,29 +36,34 @@ Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements
   for (int i = 0; i < n; ++i) unknown_[i] = unknown_[groups.find(i)];
   if (count_ < 2) return;
   std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(elements.size() * 10);
+  entries.reserve(elements.size() * 16);
   for (std::size_t t = 0; t < elements.size(); ++t) {
     const Eigen::Matrix4d k = elements[t].volume * elements[t].gradient.transpose() * elements[t].gradient;
     for (int a = 0; a < 4; ++a) {
       for (int b = 0; b < 4; ++b) {
         const int i = unknown_[mesh.tets[t][a]], j = unknown_[mesh.tets[t][b]];
-        if (i > 0 && j > 0 && i >= j) entries.emplace_back(i - 1, j - 1, k(a, b));
+        if (i > 0 && j > 0) entries.emplace_back(i - 1, j - 1, k(a, b));
       }
     }
   }
-  Eigen::SparseMatrix<double> matrix(count_ - 1, count_ - 1);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  solver_.compute(matrix);
+  matrix_.resize(count_ - 1, count_ - 1);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
+  solver_.setTolerance(kResidual);
+  solver_.setMaxIterations(kMostSteps);
+  solver_.compute(matrix_);
   ok_ = solver_.info() == Eigen::Success;
 }
 
-Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row) const {
-  Vector rhs = Vector::Zero(count_);
+Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row, const Vector& guess) const {
+  Vector rhs = Vector::Zero(count_), start(count_);
   for (std::size_t t = 0; t < elements.size(); ++t) {
     const Eigen::Vector4d b = elements[t].volume * elements[t].gradient.transpose() * target[t].row(row).transpose();
     for (int a = 0; a < 4; ++a) rhs[unknown_[mesh.tets[t][a]]] += b[a];
   }
-  const Vector x = precondition(rhs);
+  for (std::size_t i = 0; i < unknown_.size(); ++i) start[unknown_[i]] = guess[static_cast<Eigen::Index>(i)];
+  Vector x(count_);
+  x[0] = 0;
+  x.tail(count_ - 1) = solver_.solveWithGuess(rhs.tail(count_ - 1), (start.tail(count_ - 1).array() - start[0]).matrix());
   Vector result(static_cast<Eigen::Index>(unknown_.size()));
   for (std::size_t i = 0; i < unknown_.size(); ++i) result[static_cast<Eigen::Index>(i)] = x[unknown_[i]];
   return result;
@@ -69,7 +72,7 @@ Vector Coordinate::solve(const TetMesh& mesh, const std::vector<Element>& elemen
 Vector Coordinate::precondition(const Vector& rhs) const {
   Vector x(count_);
   x[0] = 0;
-  x.tail(count_ - 1) = solver_.solve(rhs.tail(count_ - 1));
+  x.tail(count_ - 1) = solver_.preconditioner().solve(rhs.tail(count_ - 1));
   return x;
 }
 

@@ -1,20 +1,14 @@
 // The linear systems of the map: one per coordinate, nodes of a chart sharing one unknown.
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/IterativeLinearSolvers>
+#include <memory>
 
 #include "core/mesh.h"
 #include "core/union_find.h"
+#include "deform/multigrid.h"
 
 namespace polycube {
-
-using Vector = Eigen::VectorXd;
-
-/// Nested dissection by METIS, one call at a time: its random numbers, seeded anew in every call, belong to the whole process.
-struct Dissection {
-  using PermutationType = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
-  void operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const;
-};
 
 /// Gradients of the four hat functions of a tet (columns, 1/mm) and its volume (mm^3).
 struct Element {
@@ -35,16 +29,17 @@ class Coordinate {
   bool ok() const { return ok_; }
   int unknowns() const { return count_; }
   int unknown(int node) const { return unknown_[node]; }
-  /// `target`: per tet the wished gradient of the map, whose `row` is this coordinate's. Returns one value per node.
-  Vector solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row) const;
-  /// Inverse of the system times a right side with one entry per unknown (entry 0 is ignored and comes back 0).
+  /// `target`: per tet the wished gradient of the map, whose `row` is this coordinate's. Takes and returns one value per node; begins at `guess`.
+  Vector solve(const TetMesh& mesh, const std::vector<Element>& elements, const std::vector<Mat3>& target, int row, const Vector& guess) const;
+  /// Near the inverse of the system times a right side with one entry per unknown (entry 0 is ignored and comes back 0). Linear, symmetric, positive.
   Vector precondition(const Vector& rhs) const;
 
  private:
   std::vector<int> unknown_;
   int count_ = 0;
   bool ok_ = false;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Dissection> solver_;
+  SparseRows matrix_;  // without unknown 0
+  Eigen::ConjugateGradient<SparseRows, Eigen::Lower | Eigen::Upper, Multigrid> solver_;
 };
 
 }  // namespace polycube

@@ -161,15 +161,19 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
   for (Chart& c : map.charts) c.value = map.image[c.nodes.front()][c.axis];
   if (report) {
     *report = {};
+    double volume = 0;
     for (std::size_t t = 0; t < elements.size(); ++t) {
       const Mat3 j = jacobian(mesh.tets[t], elements[t], map.image);
-      if (j.determinant() <= 0) {
+      const double det = j.determinant();
+      if (det <= 0) {
         ++report->flipped;
         report->flipped_tets.push_back(static_cast<int>(t));
       } else {
-        report->worst_stretch = std::max(report->worst_stretch, Eigen::JacobiSVD<Mat3>(j).singularValues()[0]);
+        report->distortion += elements[t].volume * (j.squaredNorm() / (3 * std::cbrt(det * det)) - 1);
+        volume += elements[t].volume;
       }
     }
+    if (volume > 0) report->distortion /= volume;
   }
   monitor.progress("deform", 1);
   return map;

@@ -15,7 +15,7 @@ struct DeformOptions {
 struct DeformReport {
   int flipped = 0;           ///< tets with non-positive volume in the image
   std::vector<int> flipped_tets;  ///< ascending
-  double worst_stretch = 0;  ///< largest singular value of the map's gradient over positive tets
+  double distortion = 0;     ///< mean over the positive tets' volumes of tr(J^T J) / (3 det(J)^(2/3)) - 1: 0 where all angles are kept
 };
 
 /// `frame` rows are the axes, `labels` (0..5 per boundary triangle) belong to them, `features` are charts with sign 0 (axis and nodes filled).

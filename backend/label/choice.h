@@ -1,6 +1,7 @@
 // Several labellings of one part, ranked by what can be said of them before a map is made.
 #pragma once
 
+#include <compare>
 #include <list>
 
 #include "label/features.h"
@@ -10,10 +11,14 @@ namespace polycube {
 
 /// What the labellings tried differ in; fields of LabelOptions.
 struct LabelVariant {
+  int frame = 0;            ///< one of those that the part offers
+  double compactness = 1;   ///< times that of the options
+  int chamfer_axis = LabelOptions{}.chamfer_axis;
+  bool gradual = LabelOptions{}.gradual;
   double strictness = LabelOptions{}.strictness;
   double widest_bend = LabelOptions{}.widest_bend;
   bool narrow_regions = false;
-  friend bool operator==(const LabelVariant&, const LabelVariant&) = default;
+  friend auto operator<=>(const LabelVariant&, const LabelVariant&) = default;
 };
 
 struct Labelled {
@@ -28,11 +33,12 @@ struct Labelled {
 /// The labellings of one tet mesh, each made when it is first asked for.
 class LabelChoice {
  public:
-  /// `left_out` as for find_features. Keeps references to model, mesh and monitor.
-  LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<char> left_out, const Monitor& monitor);
+  /// `frames`: at least one, the best first; those of `options` do not count. `left_out` as for find_features. Keeps references to model, mesh and monitor.
+  LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out, const Monitor& monitor);
 
-  /// All variants, those to try first in front. One without faults ends the search; the same with the other widest_bend follows, then the others as they
-  /// are listed. Where each has faults, the least faulty come first, then those with most features, then those nearest to the normals.
+  /// All variants, those to try first in front. The first pair that differs in widest_bend only and has one without faults ends the search: the better of
+  /// the two comes first, then the other, then the others as they are listed. Where each has faults, the least faulty come first, then those with most
+  /// features, then those nearest to the normals.
   const std::vector<LabelVariant>& order();
   const Labelled& labelled(const LabelVariant& variant);
 
@@ -40,6 +46,7 @@ class LabelChoice {
   const CadModel& model_;
   const TetMesh& mesh_;
   LabelOptions options_;
+  std::vector<Mat3> frames_;
   std::vector<char> left_out_;
   const Monitor& monitor_;
   std::list<Labelled> made_;  // references stay valid

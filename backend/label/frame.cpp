@@ -10,6 +10,8 @@
 namespace polycube {
 namespace {
 
+// Radians: frames nearer to each other are one.
+constexpr double kSameFrame = 0.1;
 // Cosines of 85 and 100 degrees.
 constexpr double kTowards = 0.087, kAgainst = -0.174;
 
@@ -149,11 +151,15 @@ void check_labels(const TetMesh& mesh, const Mat3& to_frame, const FaceLabels& l
   }
 }
 
-Mat3 find_frame(const CadModel& model) {
+double frame_turn(const Mat3& a, const Mat3& b) {
+  const Mat3 turn = a * b.transpose();
+  return std::acos(std::clamp((nearest_to_world(turn).trace() - 1) / 2, -1.0, 1.0));
+}
+
+std::vector<Mat3> find_frames(const CadModel& model, std::size_t most) {
   const std::vector<Vote> votes = collect_votes(model);
-  if (votes.empty()) return frame_of_vertices(model);
-  Mat3 best = Mat3::Identity();
-  double best_score = -1;
+  if (votes.empty()) return {frame_of_vertices(model)};
+  std::vector<std::pair<double, Mat3>> triples;
   const std::size_t tried = std::min<std::size_t>(votes.size(), 24);
   for (std::size_t i = 0; i < tried; ++i) {
     const Vec3 a = votes[i].direction;
@@ -168,14 +174,23 @@ Mat3 find_frame(const CadModel& model) {
       frame.row(0) = a;
       frame.row(1) = b;
       frame.row(2) = a.cross(b);
-      const double s = score(frame, votes);
-      if (s > best_score * (1 + 1e-9)) {
-        best_score = s;
-        best = frame;
-      }
+      triples.emplace_back(score(frame, votes), frame);
     }
   }
-  return nearest_to_world(best);
+  std::vector<Mat3> frames;
+  while (frames.size() < most) {
+    // Of equals the first.
+    const std::pair<double, Mat3>* best = nullptr;
+    for (const auto& triple : triples) {
+      if (std::any_of(frames.begin(), frames.end(), [&](const Mat3& f) { return frame_turn(f, triple.second) < kSameFrame; })) continue;
+      if (!best || triple.first > best->first * (1 + 1e-9)) best = &triple;
+    }
+    if (!best) break;
+    frames.push_back(nearest_to_world(best->second));
+  }
+  return frames;
 }
+
+Mat3 find_frame(const CadModel& model) { return find_frames(model, 1).front(); }
 
 }  // namespace polycube

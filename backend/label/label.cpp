@@ -30,6 +30,8 @@ constexpr double kAlignedCosine = 0.966;
 constexpr double kFlatCosine = 0.985;
 // A cone whose normals are within about 37 degrees of its axis is blunt.
 constexpr double kBluntCosine = 0.8;
+// Cosines of 60 and 30 degrees: planes between count as chamfers. Stretched by this along the axis that they shall have, 45 degrees become 29.
+constexpr double kChamferFrom = 0.5, kChamferTo = 0.866, kChamferTurn = 1.8;
 constexpr double kSharpBend = std::numbers::pi / 6;
 // Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
 constexpr double kSmallShare = 0.04, kNarrow = 1.5;
@@ -85,6 +87,17 @@ double data_cost(const Vec3& normal, int label) {
   const double x = (cosine - 1) / 0.2;
   // The published term saturates; a slope behind keeps wrong directions ordered. A face that stands square to its label's axis is a map that folds: dear.
   return 1 - std::exp(-x * x / 2) + 0.3 * (1 - cosine) + 20 * std::max(0.0, 0.3 - cosine);
+}
+
+// What a label costs a triangle that is `normal` as the data term shall see it. A chamfer may be asked to take one axis rather than another.
+double data_cost(const Setup& s, int t, int label) {
+  const int k = s.options.chamfer_axis;
+  const Vec3& normal = s.normal[t];
+  const bool chamfer = k >= 0 && s.model.face(s.mesh.triangle_face[t]).kind == SurfaceKind::kPlane && std::abs(normal[k]) > kChamferFrom && std::abs(normal[k]) < kChamferTo;
+  if (!chamfer) return data_cost(normal, label);
+  Vec3 turned = normal;
+  turned[k] *= kChamferTurn;
+  return data_cost(turned.normalized(), label);
 }
 
 double change_weight(double angle, bool same_face) {
@@ -148,7 +161,7 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
     const CadFace& face = s.model.face(f);
     const double scale = face.radius > 0 ? std::min(s.scale, 0.5 * face.radius) : s.scale;
     for (int l = 0; l < 6; ++l) {
-      double cost = s.options.fidelity * data_cost(s.normal[t], l) * s.area[t] / (scale * s.scale);
+      double cost = s.options.fidelity * data_cost(s, static_cast<int>(t), l) * s.area[t] / (scale * s.scale);
       if (given[f] >= 0 && given[f] != l) cost = kForbidden;
       const bool planar = face.kind == SurfaceKind::kPlane && s.normal[t].cwiseAbs().maxCoeff() > kAlignedCosine;
       if (given[f] < 0 && planar && label_sign(l) * s.normal[t][label_axis(l)] < kAlignedCosine) cost = kForbidden;
@@ -345,7 +358,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
     std::array<double, 6> votes{};
     for (int t : r.triangles) {
       votes[first[t]] += s.area[t];
-      for (int l = 0; l < 6; ++l) r.data[l] += options.fidelity * data_cost(s.normal[t], l) * s.area[t] / (s.scale * s.scale);
+      for (int l = 0; l < 6; ++l) r.data[l] += options.fidelity * data_cost(s, t, l) * s.area[t] / (s.scale * s.scale);
     }
     for (int l = 0; l < 6; ++l) {
       if (given[r.face] >= 0 && given[r.face] != l) r.data[l] = kForbidden;
@@ -356,8 +369,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
-  // Violations become dearer step by step: what a change of little cost mends is mended by it.
-  for (double strictness = std::min(kFirstStrictness, options.strictness);; strictness *= 2) {
+  for (double strictness = options.gradual ? std::min(kFirstStrictness, options.strictness) : options.strictness;; strictness *= 2) {
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
   }

@@ -5,17 +5,12 @@
 #include <set>
 
 #include "core/charts.h"
-#include "label/choice.h"
 #include "label/order.h"
-#include "pipeline/pose.h"
 #include "pipeline/realise.h"
-#include "tet/tet.h"
+#include "pipeline/structures.h"
 
 namespace polycube {
 namespace {
-
-// The image needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-double tet_size(double size, double diagonal) { return std::clamp(size, diagonal / 50, diagonal / 30); }
 
 // Where the charts would have to rise for ever.
 std::optional<StageFailed> unrealisable(const LabelledPart& part) {
@@ -46,20 +41,11 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   const Pose pose = canonical_pose(model, given.frame);
   const MeshOptions options = pose.posed(given);
   const double size = effective_size(options, pose.model.diagonal());
-  TetOptions tet;
-  tet.size = tet_size(size, pose.model.diagonal());
-  part.tets = tetrahedralise(pose.model, tet, monitor);
+  part.tets = tetrahedralise(pose.model, tet_options(size, pose.model.diagonal()), monitor);
   pose.check_labels(part.tets, options.labels);
   book("tet");
-  LabelOptions label_options;
-  label_options.fidelity = options.fidelity;
-  label_options.compactness = options.compactness;
-  label_options.face_labels = options.labels;
-  label_options.frame_given = true;
-  label_options.frame = pose.frame;
-  if (options.threads > 0) label_options.threads = options.threads;
   const std::vector<char> left_out = smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
-  LabelChoice choice(pose.model, part.tets, label_options, left_out, monitor);
+  LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), left_out, monitor);
   Labelled best = choice.labelled(choice.order().front());
   part.tets = std::move(best.mesh);
   part.labelling = std::move(best.labelling);
@@ -81,7 +67,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
     book("deform");
   }
   for (Vec3& p : part.tets.points) p = pose.back(p);
-  part.labelling.frame = pose.user_frame;
+  part.labelling.frame = pose.user_axes(part.labelling.frame);
   for (int& l : part.labelling.label) l = pose.user_label(l);
   for (FeatureChart& f : part.features.charts) pose.map_back(f.chart);
   for (Vec3& p : part.map.image) p = pose.map_back(p);

@@ -11,26 +11,19 @@
 #include <set>
 #include <tuple>
 
-#include "blocks/blocks.h"
-#include "core/error.h"
 #include "core/hexahedron.h"
 #include "fem/fem.h"
 #include "fit/fit.h"
 #include "hex/hex.h"
-#include "label/choice.h"
-#include "label/features.h"
-#include "label/label.h"
 #include "pad/associate.h"
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/demands.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/loose_nodes.h"
-#include "pipeline/pose.h"
-#include "pipeline/realise.h"
+#include "pipeline/structures.h"
 #include "pipeline/vertex_room.h"
 #include "quantize/quantize.h"
-#include "tet/tet.h"
 
 namespace polycube {
 namespace {
@@ -67,26 +60,9 @@ constexpr double kCoarsest = 1e-6;
 /// One way through the stages after tet; the pipeline tries them in order.
 struct Candidate {
   std::string name;
-  double min_bend = 0;        // radians: CAD edges smoother than this get no feature chart and no path either
-  bool features = true;       // feature charts at all
+  StructurePlan plan;         // CAD edges that it does without get no path either
   double refine = 1;          // on the number of cells along an edge
-  double tet_size = 1;        // on the size of the tets
-  LabelVariant labels{};
   bool roomy = false;         // cells enough for CAD edges that go on from each other inside a chart
-};
-
-struct Tets {
-  TetMesh mesh;
-  std::optional<StageFailed> failure;
-};
-
-/// What the stages up to the blocks make of a candidate; shared by all that differ only afterwards.
-struct Structure {
-  TetMesh tets;
-  Features features;
-  PolycuboidMap map;
-  BlockComplex blocks;
-  std::optional<StageFailed> failure;
 };
 
 /// Those that keep every CAD edge. `labels`: the ways to label the part, best first.
@@ -95,7 +71,7 @@ std::vector<Candidate> candidates(const MeshOptions& options, std::vector<LabelV
   std::vector<Candidate> list;
   const auto add = [&](const std::string& what, std::size_t labellings, double refine, double tet_size) {
     for (std::size_t i = 0; i < std::min(labellings, labels.size()); ++i) {
-      list.push_back({"all CAD edges" + what + (i > 0 ? ", labels " + std::to_string(i + 1) : ""), 0, true, refine, tet_size, labels[i]});
+      list.push_back({"all CAD edges" + what + (i > 0 ? ", labels " + std::to_string(i + 1) : ""), {.labels = labels[i], .tet_size = tet_size}, refine});
     }
   };
   add("", labels.size(), 1, 1);
@@ -108,9 +84,9 @@ std::vector<Candidate> candidates(const MeshOptions& options, std::vector<LabelV
 
 /// Better than nothing, for a look at volumes and modes.
 std::vector<Candidate> last_candidates() {
-  return {{"sharp CAD edges, no feature charts", std::numbers::pi / 18, false},
-          {"no CAD edges", kNoEdge, false},
-          {"no CAD edges, other tets", kNoEdge, false, 1, 0.8}};
+  return {{"sharp CAD edges, no feature charts", {.min_bend = std::numbers::pi / 18, .features = false}},
+          {"no CAD edges", {.min_bend = kNoEdge, .features = false}},
+          {"no CAD edges, other tets", {.min_bend = kNoEdge, .features = false, .tet_size = 0.8}}};
 }
 
 /// A candidate whose fit left inverted cells.
@@ -133,25 +109,17 @@ struct Routed {
 };
 
 class Run {
- private:
-  template <class Work>
-  decltype(auto) stage(const std::string& name, Work work) {
-    monitor_.progress(name, 0);
-    const auto start = Monitor::Clock::now();
-    struct Book {
-      Run* run;
-      const std::string& name;
-      Monitor::Clock::time_point start;
-      ~Book() { run->book(name, std::chrono::duration<double>(Monitor::Clock::now() - start).count()); }
-    } book{this, name, start};
-    return work();
-  }
  public:
   /// Works in the pose; `options` are those of the pose too.
   Run(const Pose& pose, const MeshOptions& options, const Monitor& monitor)
-      : pose_(pose), model_(pose.model), options_(options), monitor_(monitor), size_(effective_size(options, model_.diagonal())) {
-    if (options.hexes > 0) size_ = std::cbrt(model_.volume() / options.hexes);
-    ignored_ = smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
+      : pose_(pose),
+        model_(pose.model),
+        options_(options),
+        monitor_(monitor),
+        size_(options.hexes > 0 ? std::cbrt(model_.volume() / options.hexes) : effective_size(options, model_.diagonal())),
+        ignored_(smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
+        clock_(monitor),
+        structures_(pose, options, size_, ignored_, clock_, monitor) {
     report_.version = POLYCUBE_VERSION;
     report_.options = options;
     report_.size = size_;
@@ -173,12 +141,12 @@ class Run {
       }
       return best && good_enough(*best);
     };
-    std::vector<Candidate> list = candidates(options_, label_order());
+    std::vector<Candidate> list = candidates(options_, structures_.label_order());
     const std::size_t listed = list.size();
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (fits_left_ <= (best ? kReservedFits / 2 : kReservedFits)) break;
       const Candidate c = list[i];
-      if (i < listed && doubtful(c)) {
+      if (i < listed && structures_.doubtful(c.plan)) {
         list.push_back(c);
         continue;
       }
@@ -206,7 +174,7 @@ class Run {
       if (!best && !unfinished_.empty()) attempt_with(c.name, [&] { return relax(unfinished_.front()); });
     }
     if (!best) throw failure ? *failure : StageFailed("pipeline", "no candidate left");
-    best->report.stages = report_.stages;
+    best->report.stages = clock_.records();
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     best->report.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
@@ -214,16 +182,6 @@ class Run {
   }
 
  private:
-  void book(const std::string& name, double seconds) {
-    for (StageRecord& s : report_.stages) {
-      if (s.name == name) {
-        s.seconds += seconds;
-        return;
-      }
-    }
-    report_.stages.push_back({name, seconds});
-  }
-
   static bool complete(const MeshResult& r) { return r.association.lost_edges.empty() && r.association.lost_vertices.empty(); }
   // A mesh with poor cells is taken only when some others were no better.
   bool good_enough(const MeshResult& r) const {
@@ -240,106 +198,6 @@ class Run {
   static std::pair<double, double> rank(const MeshResult& r) {
     const double quality = r.report.quality.min_scaled_jacobian;
     return {-static_cast<double>(r.association.lost_edges.size()) + 0.5 * (quality > 0.05), quality};
-  }
-
-  const TetMesh& tets(double factor) {
-    const auto [it, fresh] = tets_.try_emplace(factor);
-    Tets& made = it->second;
-    if (fresh) {
-      TetOptions tet;
-      // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
-      tet.size = factor * std::clamp(size_, model_.diagonal() / 50, model_.diagonal() / 30);
-      try {
-        made.mesh = stage("tet", [&] { return tetrahedralise(model_, tet, monitor_); });
-      } catch (const StageFailed& e) {
-        made.failure = e;
-      }
-    }
-    if (made.failure) throw *made.failure;
-    return made.mesh;
-  }
-
-  // Ways to label the part, best first; as they come where there is no tet mesh to judge them on.
-  std::vector<LabelVariant> label_order() {
-    try {
-      LabelChoice& choice = labellings(1);
-      return stage("label", [&] { return choice.order(); });
-    } catch (const StageFailed&) {
-      return {LabelVariant{}};
-    }
-  }
-
-  // Invalid labels, where others are valid, take long to map and seldom have a map: they wait until all else was tried.
-  bool doubtful(const Candidate& c) {
-    try {
-      LabelChoice& choice = labellings(c.tet_size);
-      return !choice.labelled(c.labels).report.valid() && choice.labelled(choice.order().front()).report.valid();
-    } catch (const StageFailed&) {
-      return false;
-    }
-  }
-
-  // Of the labellings of a tet mesh.
-  LabelChoice& labellings(double tet_size) {
-    const auto found = labellings_.find(tet_size);
-    if (found != labellings_.end()) return found->second;
-    const TetMesh& mesh = tets(tet_size);
-    pose_.check_labels(mesh, options_.labels);
-    LabelOptions label_options;
-    label_options.fidelity = options_.fidelity;
-    label_options.compactness = options_.compactness;
-    label_options.face_labels = options_.labels;
-    label_options.frame_given = true;
-    label_options.frame = pose_.frame;
-    if (options_.threads > 0) label_options.threads = options_.threads;
-    return labellings_.try_emplace(tet_size, model_, mesh, label_options, ignored_, monitor_).first->second;
-  }
-
-  // What the search for labels begins with, for fillets treated alike.
-  static LabelVariant plain(LabelVariant v) {
-    LabelVariant result;
-    result.widest_bend = v.widest_bend;
-    return result;
-  }
-
-  // Labels, map and blocks of a candidate; made once for all candidates that agree so far.
-  const Structure& structure(const Candidate& c) {
-    const auto [it, fresh] = structures_.try_emplace({c.labels.strictness, c.labels.widest_bend, c.labels.narrow_regions, c.min_bend, c.features, c.tet_size});
-    Structure& s = it->second;
-    if (fresh) {
-      try {
-        build(c, s);
-      } catch (const StageFailed& e) {
-        s.failure = e;
-      }
-    }
-    if (s.failure) throw *s.failure;
-    return s;
-  }
-
-  void build(const Candidate& c, Structure& s) {
-    LabelChoice& choice = labellings(c.tet_size);
-    // Where nothing is wrong, stricter labels would be the same.
-    if (!(c.labels == plain(c.labels)) && stage("label", [&] { return choice.labelled(plain(c.labels)).faults; }) == 0) throw StageFailed("label", "the same as one before");
-    const Labelled& labelled = stage("label", [&]() -> const Labelled& { return choice.labelled(c.labels); });
-    const Labelling& labelling = labelled.labelling;
-    s.tets = labelled.mesh;
-    s.features = stage("label", [&] { return find_features(model_, s.tets, labelling, left_out(c), monitor_); });
-    if (!c.features) s.features.charts.clear();
-    std::vector<std::vector<int>> plan{labelling.label};
-    const std::vector<char> out = left_out(c);
-    for (const FeatureEdge& e : s.features.edges) plan.push_back({e.edge, static_cast<int>(e.capture), out[e.edge]});
-    plan.push_back({static_cast<int>(s.features.charts.size())});
-    if (!tried_.insert(std::move(plan)).second) throw StageFailed("label", "the same as one before");
-
-    DeformOptions deform_options;
-    deform_options.merge = 0.02 * size_;
-    if (options_.threads > 0) deform_options.threads = options_.threads;
-    RealisedMap realised = stage("deform", [&] { return realise(model_, s.tets, labelling, s.features, deform_options, monitor_); });
-    s.map = std::move(realised.map);
-    monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
-                 std::to_string(s.tets.tets.size()) + " tets");
-    s.blocks = stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
   }
 
   // Padding can add cells to a division that has a maximum: fewer are asked for then.
@@ -362,7 +220,7 @@ class Run {
     Routed routes = routed(u, u.complex);
     if (!routes.association.lost_edges.empty()) give_room(u, routes, divisions);
     Association association = divided(u, std::move(routes));
-    if (!options_.coarsest && c.min_bend == 0 && size_ > kCoarse * model_.diagonal()) {
+    if (!options_.coarsest && c.plan.min_bend == 0 && size_ > kCoarse * model_.diagonal()) {
       for (const double finer : kFiner) {
         if (association.lost_edges.empty()) break;
         if (finer <= c.refine) continue;
@@ -400,11 +258,11 @@ class Run {
     Unfinished u;
     u.candidate = c;
     u.report = report_;
-    u.structure = &structure(c);
+    u.structure = &structures_.structure(c.plan);
     const Structure& s = *u.structure;
     u.options.ignored = ignored_;
     u.options.edge_chains = edge_chains(model_, s.tets);
-    const std::vector<char> out = left_out(c);
+    const std::vector<char> out = structures_.left_out(c.plan);
     for (const FeatureEdge& e : s.features.edges) {
       if (out[e.edge]) {
         if (!ignored_[e.edge]) u.options.edge_chains[e.edge].clear();
@@ -412,8 +270,8 @@ class Run {
         monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
       }
     }
-    u.quantization = stage("quantize", [&] { return quantized(c, s, u.options, divisions); });
-    u.complex = stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
+    u.quantization = clock_.stage("quantize", [&] { return quantized(c, s, u.options, divisions); });
+    u.complex = clock_.stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, u.quantization, monitor_); });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(u.complex.mesh.hexes.size()) + " hexes");
     u.options.size = typical_edge(u.complex.mesh);
     return u;
@@ -486,7 +344,7 @@ class Run {
     Routed result;
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
     result.association =
-        stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_, &result.crowded); });
+        clock_.stage("pad", [&] { return associate(model_, u.structure->tets, u.structure->map.charts, boundary, u.options, monitor_, &result.crowded); });
     return result;
   }
 
@@ -555,7 +413,7 @@ class Run {
   // `choice`: the padding plan to fit, -1 for the best of all; on return the one chosen.
   PaddedMesh pad_and_fit(const HexMesh& mesh, const Association& association, int& choice, FitReport& fitted, MeshReport& report) {
     std::vector<PadReport> pad_reports;
-    std::vector<PaddedMesh> choices = stage("pad", [&] { return pad_choices(model_, mesh, association, monitor_, &pad_reports); });
+    std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, mesh, association, monitor_, &pad_reports); });
     if (choice >= 0 && choices.size() > 1) {
       const auto index = std::min(static_cast<std::size_t>(choice), choices.size() - 1);
       choices = {std::move(choices[index])};
@@ -570,7 +428,7 @@ class Run {
         if (i > 0) break;
         throw StageFailed("fit", "cells stay inverted after " + std::to_string(kMaxFits) + " attempts");
       }
-      const FitReport next = stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
+      const FitReport next = clock_.stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
       const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
       if (i == 0 || rank_of(next) > rank_of(fitted)) {
         fitted = next;
@@ -585,13 +443,6 @@ class Run {
                  std::to_string(fitted.inverted) + " inverted");
     if (choice < 0) choice = static_cast<int>(chosen);
     return std::move(choices[chosen]);
-  }
-
-  // Per CAD edge: whether the candidate does without it.
-  std::vector<char> left_out(const Candidate& c) const {
-    std::vector<char> out = smooth_edges(model_, c.min_bend);
-    for (std::size_t e = 0; e < out.size(); ++e) out[e] |= ignored_[e];
-    return out;
   }
 
   static double typical_edge(const HexMesh& mesh) {
@@ -653,13 +504,11 @@ class Run {
   const MeshOptions& options_;
   const Monitor& monitor_;
   double size_;
-  std::map<double, Tets> tets_;  // by factor on their size
-  int fits_left_ = kMaxFits;
   std::vector<char> ignored_;  // per CAD edge: the user does without it
+  StageClock clock_;
+  Structures structures_;
+  int fits_left_ = kMaxFits;
   std::vector<Unfinished> unfinished_;
-  std::map<double, LabelChoice> labellings_;  // by factor on the size of the tets
-  std::map<std::tuple<double, double, bool, double, bool, double>, Structure> structures_;
-  std::set<std::vector<std::vector<int>>> tried_;  // labels and features of earlier candidates
   MeshReport report_;
 };
 

@@ -16,6 +16,10 @@ constexpr double kPosedSize = 100;
 // mm in the pose: a hundredth of OCCT's confusion, a thousand times the noise of coordinates with 15 digits.
 constexpr double kGrid = 1e-9;
 constexpr int kSamples = 7;
+// Frames of the labels that are tried.
+constexpr std::size_t kFrames = 3;
+// Radians.
+constexpr double kSameFrame = 0.1;
 // Relative: shapes are as symmetric as this.
 constexpr double kTie = 1e-6;
 
@@ -94,6 +98,23 @@ void Pose::check_labels(const TetMesh& mesh, const FaceLabels& labels) const {
   polycube::check_labels(mesh, user_frame * rotation.transpose(), user);
 }
 
+std::vector<Mat3> Pose::frames(const MeshOptions& options) const {
+  std::vector<Mat3> result{frame};
+  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
+  if (frame_given || by_axis || !options.labels.empty()) return result;
+  for (const Mat3& f : find_frames(model, kFrames)) {
+    if (frame_turn(f, frame) > kSameFrame) result.push_back(f);
+  }
+  return result;
+}
+
+Mat3 Pose::user_axes(const Mat3& posed_frame) const {
+  const Mat3 turned = posed_frame * rotation;
+  Mat3 result;
+  for (int k = 0; k < 3; ++k) result.row(axis[k]) = sign[k] * turned.row(k);
+  return result;
+}
+
 MeshOptions Pose::posed(const MeshOptions& options) const {
   MeshOptions result = options;
   // The same size in the pose has to be the same to the last bit too.
@@ -109,6 +130,7 @@ MeshOptions Pose::posed(const MeshOptions& options) const {
 
 Pose canonical_pose(const CadModel& model, const FrameAxes& axes) {
   Pose pose{model};
+  pose.frame_given = !axes.empty();
   pose.user_frame = axes.empty() ? find_frame(model) : frame_of(axes);
   pose.frame = pose.user_frame;
   const std::vector<Vec3> points = points_of(model);

@@ -19,6 +19,7 @@ struct Pose {
   Mat3 user_frame = Mat3::Identity();   ///< of the labels as the user sees them (given, or find_frame), in the part as given
   std::array<int, 3> axis{0, 1, 2};     ///< per axis of `frame`: the user's axis along it
   std::array<int, 3> sign{1, 1, 1};     ///< +1: the same way, -1: against it
+  bool frame_given = false;             ///< by the user
 
   Vec3 back(const Vec3& p) const { return rotation.transpose() * (p - translation) / scale; }
   int posed_label(int user_label) const;
@@ -30,6 +31,10 @@ struct Pose {
   void check_labels(const TetMesh& mesh, const FaceLabels& labels) const;
   /// The chart's axis, sign and value in the user's axes.
   void map_back(Chart& chart) const;
+  /// Of the labels, in the pose, best first: `frame`, and others of the part where the user does not speak of axes.
+  std::vector<Mat3> frames(const MeshOptions& options) const;
+  /// A frame of the pose, as the user sees it.
+  Mat3 user_axes(const Mat3& posed_frame) const;
   /// Lengths and labels in the pose, whose own frame is the one.
   MeshOptions posed(const MeshOptions& options) const;
 };

@@ -1,0 +1,172 @@
+#include "pipeline/structures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "pipeline/realise.h"
+
+namespace polycube {
+namespace {
+
+// What the search for labels begins with, for faces treated alike.
+LabelVariant plain(LabelVariant v) {
+  v.strictness = LabelVariant{}.strictness;
+  v.narrow_regions = LabelVariant{}.narrow_regions;
+  v.gradual = LabelVariant{}.gradual;
+  return v;
+}
+
+// Labellings whose maps are compared.
+constexpr std::size_t kMapped = 4;
+// Flipped tets that the blocks bear easily.
+constexpr int kFewFlips = 5;
+
+int count_lost(const Features& features) {
+  return static_cast<int>(std::count_if(features.edges.begin(), features.edges.end(), [](const FeatureEdge& e) { return e.capture == EdgeCapture::kLost; }));
+}
+
+// A few flips more or less say nothing, four times as many do.
+int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kFewFlips) / 2); }
+
+bool in_doubt(const Structure& s) { return s.failure || s.folded_features > 0 || s.flipped > kFewFlips; }
+
+}  // namespace
+
+TetOptions tet_options(double size, double diagonal, double factor) {
+  TetOptions result;
+  // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
+  result.size = factor * std::clamp(size, diagonal / 50, diagonal / 30);
+  return result;
+}
+
+LabelOptions label_options(const MeshOptions& options) {
+  LabelOptions result;
+  result.fidelity = options.fidelity;
+  result.compactness = options.compactness;
+  result.face_labels = options.labels;
+  if (options.threads > 0) result.threads = options.threads;
+  return result;
+}
+
+Structures::Structures(const Pose& pose, const MeshOptions& options, double size, std::vector<char> ignored, StageClock& clock, const Monitor& monitor)
+    : pose_(pose), model_(pose.model), options_(options), size_(size), ignored_(std::move(ignored)), clock_(clock), monitor_(monitor) {}
+
+const TetMesh& Structures::tets(double factor) {
+  const auto [it, fresh] = tets_.try_emplace(factor);
+  Tets& made = it->second;
+  if (fresh) {
+    try {
+      made.mesh = clock_.stage("tet", [&] { return tetrahedralise(model_, tet_options(size_, model_.diagonal(), factor), monitor_); });
+    } catch (const StageFailed& e) {
+      made.failure = e;
+    }
+  }
+  if (made.failure) throw *made.failure;
+  return made.mesh;
+}
+
+LabelChoice& Structures::labellings(double tet_size) {
+  const auto found = labellings_.find(tet_size);
+  if (found != labellings_.end()) return found->second;
+  const TetMesh& mesh = tets(tet_size);
+  pose_.check_labels(mesh, options_.labels);
+  return labellings_.try_emplace(tet_size, model_, mesh, label_options(options_), pose_.frames(options_), ignored_, monitor_).first->second;
+}
+
+std::vector<LabelVariant> Structures::label_order() {
+  std::vector<LabelVariant> order;
+  try {
+    LabelChoice& choice = labellings(1);
+    order = clock_.stage("label", [&] { return choice.order(); });
+  } catch (const StageFailed&) {
+    return {LabelVariant{}};
+  }
+  if (in_doubt(made(order.front()))) sort_by_map(order);
+  return order;
+}
+
+const Structure& Structures::made(const LabelVariant& labels) {
+  const StructurePlan plan{.labels = labels};
+  try {
+    return structure(plan);
+  } catch (const StageFailed&) {
+    return structures_.at(plan);
+  }
+}
+
+// Of labels without more faults than the first.
+void Structures::sort_by_map(std::vector<LabelVariant>& order) {
+  LabelChoice& choice = labellings(1);
+  const double faults = choice.labelled(order.front()).faults;
+  const auto end = std::find_if(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kMapped)), [&](const LabelVariant& v) {
+    return clock_.stage("label", [&] { return choice.labelled(v).faults; }) > faults;
+  });
+  const auto key = [&](const LabelVariant& v) {
+    const Structure& s = made(v);
+    return std::tuple(s.failure.has_value(), s.lost_features, magnitude(s.flipped), s.distortion);
+  };
+  std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return key(a) < key(b); });
+}
+
+bool Structures::doubtful(const StructurePlan& plan) {
+  try {
+    LabelChoice& choice = labellings(plan.tet_size);
+    return !choice.labelled(plan.labels).report.valid() && choice.labelled(choice.order().front()).report.valid();
+  } catch (const StageFailed&) {
+    return false;
+  }
+}
+
+std::vector<char> Structures::left_out(const StructurePlan& plan) const {
+  std::vector<char> out = smooth_edges(model_, plan.min_bend);
+  for (std::size_t e = 0; e < out.size(); ++e) out[e] |= ignored_[e];
+  return out;
+}
+
+const Structure& Structures::structure(const StructurePlan& plan) {
+  const auto [it, fresh] = structures_.try_emplace(plan);
+  Structure& s = it->second;
+  if (fresh) {
+    try {
+      build(plan, s);
+    } catch (const StageFailed& e) {
+      s.failure = e;
+    }
+  }
+  if (s.failure) throw *s.failure;
+  return s;
+}
+
+void Structures::build(const StructurePlan& plan, Structure& s) {
+  LabelChoice& choice = labellings(plan.tet_size);
+  const auto labelled = [&](const LabelVariant& v) -> const Labelled& {
+    return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
+  };
+  // Where nothing is wrong, stricter labels would be the same.
+  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels)).faults == 0) throw StageFailed("label", "the same as one before");
+  const Labelled& chosen = labelled(plan.labels);
+  const std::vector<char> out = left_out(plan);
+  s.tets = chosen.mesh;
+  s.features = clock_.stage("label", [&] { return find_features(model_, s.tets, chosen.labelling, out, monitor_); });
+  if (!plan.features) s.features.charts.clear();
+  std::vector<std::vector<int>> made{chosen.labelling.label};
+  for (const FeatureEdge& e : s.features.edges) made.push_back({e.edge, static_cast<int>(e.capture), out[e.edge]});
+  made.push_back({static_cast<int>(s.features.charts.size())});
+  if (!tried_.insert(std::move(made)).second) throw StageFailed("label", "the same as one before");
+
+  DeformOptions deform_options;
+  deform_options.merge = 0.02 * size_;
+  if (options_.threads > 0) deform_options.threads = options_.threads;
+  const int unheld = count_lost(s.features);
+  RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options, monitor_); });
+  s.map = std::move(realised.map);
+  s.flipped = realised.report.flipped;
+  s.distortion = realised.report.distortion;
+  s.lost_features = count_lost(s.features);
+  s.folded_features = s.lost_features - unheld;
+  monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(s.flipped) + " flipped of " + std::to_string(s.tets.tets.size()) + " tets");
+  s.blocks = clock_.stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
+}
+
+}  // namespace polycube

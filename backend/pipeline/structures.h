@@ -1,0 +1,86 @@
+// Labels, features, maps and blocks of a part, and in which order they are worth trying.
+#pragma once
+
+#include <compare>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "blocks/blocks.h"
+#include "core/error.h"
+#include "label/choice.h"
+#include "pipeline/pose.h"
+#include "pipeline/stage_clock.h"
+#include "tet/tet.h"
+
+namespace polycube {
+
+/// Of the tets that labels and map are made on; `size` of the hexahedra in mm, `factor` on that of the tets.
+TetOptions tet_options(double size, double diagonal, double factor = 1);
+
+/// What the user says of the labels, in the pose.
+LabelOptions label_options(const MeshOptions& options);
+
+/// What structures differ in.
+struct StructurePlan {
+  LabelVariant labels{};
+  double min_bend = 0;        ///< radians: CAD edges smoother than this get no feature chart
+  bool features = true;       ///< feature charts at all
+  double tet_size = 1;        ///< on the size of the tets
+  friend auto operator<=>(const StructurePlan&, const StructurePlan&) = default;
+};
+
+/// What the stages up to the blocks make of a plan; shared by all that differ only afterwards.
+struct Structure {
+  TetMesh tets;
+  Features features;
+  PolycuboidMap map;
+  BlockComplex blocks;
+  std::optional<StageFailed> failure;
+  int flipped = 0;            ///< tets that the map turns over
+  double distortion = 0;      ///< DeformReport's
+  int lost_features = 0;      ///< CAD edges without the feature chart they need
+  int folded_features = 0;    ///< those of them that the map would fold at
+};
+
+/// The structures of one part, each made when it is first asked for.
+class Structures {
+ public:
+  /// `ignored`: per CAD edge, the user does without it. Keeps references to pose, options (of the pose), clock and monitor.
+  Structures(const Pose& pose, const MeshOptions& options, double size, std::vector<char> ignored, StageClock& clock, const Monitor& monitor);
+
+  /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
+  const Structure& structure(const StructurePlan& plan);
+  /// Ways to label the part, best first: by LabelChoice, then, where the first map is in doubt, those of the best labels by their maps. As they come where
+  /// there is no tet mesh to judge them on.
+  std::vector<LabelVariant> label_order();
+  /// Invalid labels, where others are valid, take long to map and seldom have a map.
+  bool doubtful(const StructurePlan& plan);
+  /// Per CAD edge: whether the plan does without it.
+  std::vector<char> left_out(const StructurePlan& plan) const;
+
+ private:
+  struct Tets {
+    TetMesh mesh;
+    std::optional<StageFailed> failure;
+  };
+  const TetMesh& tets(double factor);
+  LabelChoice& labellings(double tet_size);
+  const Structure& made(const LabelVariant& labels);
+  void sort_by_map(std::vector<LabelVariant>& order);
+  void build(const StructurePlan& plan, Structure& s);
+
+  const Pose& pose_;
+  const CadModel& model_;
+  const MeshOptions& options_;
+  double size_;
+  std::vector<char> ignored_;
+  StageClock& clock_;
+  const Monitor& monitor_;
+  std::map<double, Tets> tets_;              // by factor on their size
+  std::map<double, LabelChoice> labellings_;
+  std::map<StructurePlan, Structure> structures_;
+  std::set<std::vector<std::vector<int>>> tried_;  // labels and features made
+};
+
+}  // namespace polycube

@@ -1,0 +1,70 @@
+#include "pipeline/structures.h"
+
+#include <gtest/gtest.h>
+
+#include "label/frame.h"
+#include "pipeline/pose.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+struct Part {
+  explicit Part(const std::string& brep, const MeshOptions& given = {})
+      : pose(canonical_pose(CadModel::from_brep(brep), given.frame)),
+        options(pose.posed(given)),
+        clock(monitor),
+        structures(pose, options, pose.model.diagonal() / 20, std::vector<char>(static_cast<std::size_t>(pose.model.edge_count()) + 1, 0), clock, monitor) {}
+  Monitor monitor;
+  Pose pose;
+  MeshOptions options;
+  StageClock clock;
+  Structures structures;
+};
+
+TEST(Structures, AreMadeOnceAndEqualLabelsAreRefused) {
+  Part part(shapes::cylinder(5, 12));
+  const std::vector<LabelVariant> order = part.structures.label_order();
+  EXPECT_EQ(order.front(), LabelVariant());
+  const Structure& s = part.structures.structure({.labels = order[0]});
+  EXPECT_EQ(s.flipped, 0);
+  EXPECT_EQ(s.lost_features, 0);
+  EXPECT_LT(s.distortion, 0.2);
+  EXPECT_GT(s.distortion, 0.01);  // a circle becomes a square
+  EXPECT_EQ(&part.structures.structure({.labels = order[0]}), &s);
+  for (int again = 0; again < 2; ++again) EXPECT_THROW(part.structures.structure({.labels = order[1]}), StageFailed);
+  for (const StageRecord& r : part.clock.records()) EXPECT_GE(r.seconds, 0) << r.name;
+  EXPECT_EQ(part.clock.records().front().name, "tet");
+}
+
+TEST(Structures, OtherFramesAreTriedOnlyWhereTheUserDoesNotSpeakOfAxes) {
+  const std::string bevelled = shapes::chamfered_box(10, 4);
+  MeshOptions options;
+  EXPECT_EQ(Part(bevelled).pose.frames(options).size(), 2u);
+  MeshOptions framed;
+  framed.frame = {{1, 0, 0}, {0, 1, 0}};
+  EXPECT_EQ(Part(bevelled, framed).pose.frames(options).size(), 1u);
+  MeshOptions labelled;
+  labelled.labels = {{1, 0}};
+  EXPECT_EQ(Part(bevelled).pose.frames(labelled).size(), 1u);
+  MeshOptions sized;
+  sized.sizes.push_back({});
+  sized.sizes.back().axis = 1;
+  EXPECT_EQ(Part(bevelled).pose.frames(sized).size(), 1u);
+}
+
+// In any frame the map of a part has its charts on planes of the axes.
+TEST(Structures, AnotherFrameGivesAMapToo) {
+  Part part(shapes::chamfered_box(10, 4));
+  const Structure& s = part.structures.structure({.labels = {.frame = 1}});
+  EXPECT_EQ(s.flipped, 0);
+  for (const Chart& c : s.map.charts) {
+    for (int n : c.nodes) EXPECT_EQ(s.map.image[n][c.axis], c.value);
+  }
+  const Mat3 seen = part.pose.user_axes(part.pose.frames(part.options)[1]);
+  EXPECT_NEAR(frame_turn(seen, Mat3::Identity()), 0.785398, 1e-6);
+  EXPECT_LT((part.pose.user_axes(part.pose.frame) - part.pose.user_frame).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace polycube

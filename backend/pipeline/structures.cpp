@@ -22,14 +22,10 @@ constexpr std::size_t kMapped = 4;
 // Flipped tets that the blocks bear easily.
 constexpr int kFewFlips = 5;
 
-int count_lost(const Features& features) {
-  return static_cast<int>(std::count_if(features.edges.begin(), features.edges.end(), [](const FeatureEdge& e) { return e.capture == EdgeCapture::kLost; }));
-}
-
 // A few flips more or less say nothing, four times as many do.
 int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kFewFlips) / 2); }
 
-bool in_doubt(const Structure& s) { return s.failure || s.folded_features > 0 || s.flipped > kFewFlips; }
+bool in_doubt(const Structure& s) { return s.failure || s.flipped > kFewFlips; }
 
 }  // namespace
 
@@ -95,16 +91,18 @@ const Structure& Structures::made(const LabelVariant& labels) {
   }
 }
 
-// Of labels without more faults than the first.
+// Those that are as good as the first in all that can be said without a map.
 void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   LabelChoice& choice = labellings(1);
-  const double faults = choice.labelled(order.front()).faults;
-  const auto end = std::find_if(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kMapped)), [&](const LabelVariant& v) {
-    return clock_.stage("label", [&] { return choice.labelled(v).faults; }) > faults;
-  });
+  const auto without_map = [&](const LabelVariant& v) {
+    const Labelled& l = clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
+    return std::tuple(l.faults, l.lost_features);
+  };
+  const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kMapped));
+  const auto end = std::find_if(order.begin(), last, [&, first = without_map(order.front())](const LabelVariant& v) { return without_map(v) > first; });
   const auto key = [&](const LabelVariant& v) {
     const Structure& s = made(v);
-    return std::tuple(s.failure.has_value(), s.lost_features, magnitude(s.flipped), s.distortion);
+    return std::tuple(s.failure.has_value(), magnitude(s.flipped), s.distortion);
   };
   std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return key(a) < key(b); });
 }
@@ -158,13 +156,10 @@ void Structures::build(const StructurePlan& plan, Structure& s) {
   DeformOptions deform_options;
   deform_options.merge = 0.02 * size_;
   if (options_.threads > 0) deform_options.threads = options_.threads;
-  const int unheld = count_lost(s.features);
   RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options, monitor_); });
   s.map = std::move(realised.map);
   s.flipped = realised.report.flipped;
   s.distortion = realised.report.distortion;
-  s.lost_features = count_lost(s.features);
-  s.folded_features = s.lost_features - unheld;
   monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(s.flipped) + " flipped of " + std::to_string(s.tets.tets.size()) + " tets");
   s.blocks = clock_.stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
 }

@@ -39,8 +39,6 @@ struct Structure {
   std::optional<StageFailed> failure;
   int flipped = 0;            ///< tets that the map turns over
   double distortion = 0;      ///< DeformReport's
-  int lost_features = 0;      ///< CAD edges without the feature chart they need
-  int folded_features = 0;    ///< those of them that the map would fold at
 };
 
 /// The structures of one part, each made when it is first asked for.
@@ -51,7 +49,7 @@ class Structures {
 
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
-  /// Ways to label the part, best first: by LabelChoice, then, where the first map is in doubt, those of the best labels by their maps. As they come where
+  /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps. As they come where
   /// there is no tet mesh to judge them on.
   std::vector<LabelVariant> label_order();
   /// Invalid labels, where others are valid, take long to map and seldom have a map.

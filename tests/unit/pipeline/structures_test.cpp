@@ -28,7 +28,6 @@ TEST(Structures, AreMadeOnceAndEqualLabelsAreRefused) {
   EXPECT_EQ(order.front(), LabelVariant());
   const Structure& s = part.structures.structure({.labels = order[0]});
   EXPECT_EQ(s.flipped, 0);
-  EXPECT_EQ(s.lost_features, 0);
   EXPECT_LT(s.distortion, 0.2);
   EXPECT_GT(s.distortion, 0.01);  // a circle becomes a square
   EXPECT_EQ(&part.structures.structure({.labels = order[0]}), &s);

@@ -1,7 +1,11 @@
 #include "label/choice.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
 #include <tuple>
 
 namespace polycube {
@@ -12,23 +16,65 @@ constexpr double kFilletsWhole = 0.96;
 constexpr double kStrict = 1000;
 constexpr std::array kCompactness{3.0, 0.3};
 
-// Those that take least liberties first.
-std::vector<LabelVariant> variants(int frames) {
+// What the shape gives a choice of.
+struct Choices {
+  bool bends = false;                  // some face has one label with the wider widest_bend only
+  std::array<bool, 3> chamfers{};      // some plane is oblique to this axis and another
+  int frames = 1;
+};
+
+Choices choices_of(const CadModel& model, const TetMesh& mesh, const std::vector<Mat3>& frames) {
+  Choices result;
+  result.frames = static_cast<int>(frames.size());
+  std::vector<Vec3> normal, mean(static_cast<std::size_t>(model.face_count()) + 1, Vec3::Zero());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 w = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+    normal.push_back(w.normalized());
+    mean[mesh.triangle_face[t]] += w;
+  }
+  std::vector<double> least(mean.size(), 1);
+  for (std::size_t t = 0; t < normal.size(); ++t) {
+    const int f = mesh.triangle_face[t];
+    least[f] = std::min(least[f], normal[t].dot(mean[f].normalized()));
+  }
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const CadFace& face = model.face(f);
+    result.bends = result.bends || face.kind == SurfaceKind::kTorus || (least[f] < std::cos(LabelOptions{}.widest_bend) && least[f] >= std::cos(kFilletsWhole));
+    for (int axis = 0; axis < 3; ++axis) result.chamfers[axis] = result.chamfers[axis] || is_chamfer(face, frames.front(), axis);
+  }
+  return result;
+}
+
+// Those that take least liberties first; twins, which differ in widest_bend only, follow each other.
+std::vector<LabelVariant> variants(const Choices& choices) {
   std::vector<LabelVariant> list;
   const auto add = [&](LabelVariant v) {
-    for (const double bend : {LabelOptions{}.widest_bend, kFilletsWhole}) {
-      v.widest_bend = bend;
-      list.push_back(v);
-    }
+    list.push_back(v);
+    v.widest_bend = kFilletsWhole;
+    if (choices.bends) list.push_back(v);
   };
   for (const double strictness : {LabelOptions{}.strictness, kStrict}) {
     for (const bool narrow : {false, true}) add({.strictness = strictness, .narrow_regions = narrow});
   }
-  for (int axis = 0; axis < 3; ++axis) add({.chamfer_axis = axis});
+  for (int axis = 0; axis < 3; ++axis) {
+    if (choices.chamfers[axis]) add({.chamfer_axis = axis});
+  }
+  for (int f = 1; f < choices.frames; ++f) add({.frame = f});
   for (const double compactness : kCompactness) add({.compactness = compactness});
   add({.gradual = false});
-  for (int f = 1; f < frames; ++f) add({.frame = f});
   return list;
+}
+
+std::string describe(const LabelVariant& v) {
+  std::string text = "faces bend up to " + std::to_string(std::lround(v.widest_bend * 180 / std::numbers::pi)) + " degrees, strictness " + std::to_string(std::lround(v.strictness));
+  if (!v.gradual) text += " at once";
+  if (v.narrow_regions) text += ", narrow regions";
+  if (v.chamfer_axis >= 0) text += std::string(", chamfers along ") + "xyz"[v.chamfer_axis];
+  if (v.compactness > 1) text += ", compact";
+  if (v.compactness < 1) text += ", loose";
+  if (v.frame > 0) text += ", frame " + std::to_string(v.frame + 1);
+  return text;
 }
 
 bool better(const Labelled& a, const Labelled& b) {
@@ -57,20 +103,23 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   result.labelling = label(model_, result.mesh, options, monitor_, &result.report);
   result.faults = result.report.score;
   for (const FeatureEdge& e : find_features(model_, result.mesh, result.labelling, left_out_, monitor_).edges) result.lost_features += e.capture == EdgeCapture::kLost;
+  monitor_.log("label: " + describe(variant) + ": score " + std::to_string(result.faults) + ", " + std::to_string(result.lost_features) + " edges without feature charts");
   made_.push_back(std::move(result));
   return made_.back();
 }
 
 const std::vector<LabelVariant>& LabelChoice::order() {
   if (!order_.empty()) return order_;
-  order_ = variants(static_cast<int>(frames_.size()));
-  // Variants come in twins that differ in widest_bend.
-  for (auto twins = order_.begin(); twins != order_.end(); twins += 2) {
-    const Labelled& first = labelled(twins[0]);
-    const bool settled = first.faults == 0 && first.lost_features == 0;
-    if (!settled && first.faults > 0 && labelled(twins[1]).faults > 0) continue;
-    if (!settled && better(labelled(twins[1]), first)) std::swap(twins[0], twins[1]);
-    std::rotate(order_.begin(), twins, twins + 2);
+  const Choices choices = choices_of(model_, mesh_, frames_);
+  order_ = variants(choices);
+  const std::ptrdiff_t step = choices.bends ? 2 : 1;
+  for (auto twins = order_.begin(); twins != order_.end(); twins += step) {
+    const Labelled& first = labelled(*twins);
+    const bool settled = step == 1 || (first.faults == 0 && first.lost_features == 0);
+    const Labelled& other = settled ? first : labelled(twins[1]);
+    if (first.faults > 0 && other.faults > 0) continue;
+    if (better(other, first)) std::swap(twins[0], twins[1]);
+    std::rotate(order_.begin(), twins, twins + step);
     return order_;
   }
   std::stable_sort(order_.begin(), order_.end(), [&](const LabelVariant& a, const LabelVariant& b) { return better(labelled(a), labelled(b)); });

@@ -30,8 +30,10 @@ constexpr double kAlignedCosine = 0.966;
 constexpr double kFlatCosine = 0.985;
 // A cone whose normals are within about 37 degrees of its axis is blunt.
 constexpr double kBluntCosine = 0.8;
-// Cosines of 60 and 30 degrees: planes between count as chamfers. Stretched by this along the axis that they shall have, 45 degrees become 29.
-constexpr double kChamferFrom = 0.5, kChamferTo = 0.866, kChamferTurn = 1.8;
+// Stretched by this along the axis that it shall have, a chamfer of 45 degrees becomes one of 29.
+constexpr double kChamferTurn = 1.8;
+// Cosines of 60 and 30 degrees.
+constexpr double kChamferFrom = 0.5, kChamferTo = 0.866;
 constexpr double kSharpBend = std::numbers::pi / 6;
 // Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
 constexpr double kSmallShare = 0.04, kNarrow = 1.5;
@@ -93,8 +95,7 @@ double data_cost(const Vec3& normal, int label) {
 double data_cost(const Setup& s, int t, int label) {
   const int k = s.options.chamfer_axis;
   const Vec3& normal = s.normal[t];
-  const bool chamfer = k >= 0 && s.model.face(s.mesh.triangle_face[t]).kind == SurfaceKind::kPlane && std::abs(normal[k]) > kChamferFrom && std::abs(normal[k]) < kChamferTo;
-  if (!chamfer) return data_cost(normal, label);
+  if (k < 0 || !is_chamfer(s.model.face(s.mesh.triangle_face[t]), s.frame, k)) return data_cost(normal, label);
   Vec3 turned = normal;
   turned[k] *= kChamferTurn;
   return data_cost(turned.normalized(), label);
@@ -438,6 +439,11 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
 }
 
 }  // namespace
+
+bool is_chamfer(const CadFace& face, const Mat3& frame, int axis) {
+  const double cosine = std::abs(frame.row(axis).dot(face.axis));
+  return face.kind == SurfaceKind::kPlane && cosine > kChamferFrom && cosine < kChamferTo;
+}
 
 Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
   monitor.progress("label", 0);

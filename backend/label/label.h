@@ -14,7 +14,7 @@ struct LabelOptions {
   double compactness = 1;                           ///< weight of short chart boundaries
   double widest_bend = 0.5;                         ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
   bool narrow_regions = false;                      ///< pieces of a face between generators that are small against the face may have labels of their own
-  int chamfer_axis = -1;                            ///< 0..2: planes between 30 and 60 degrees of that axis prefer it; -1: the nearest axis
+  int chamfer_axis = -1;                            ///< 0..2: chamfers (is_chamfer) of that axis prefer it; -1: the nearest axis
   double strictness = 100;                          ///< energy that one violation is worth; high: any relabelling to be rid of it
   bool gradual = true;                              ///< strictness is reached by doubling, so that violations that little cost mends are mended by little
   std::vector<std::pair<int, int>> face_labels;     ///< (CAD face, label 0..5) given by the user
@@ -42,6 +42,9 @@ struct LabelReport {
   double energy = 0;  ///< of the labels: deviation from the normals and borders, what the search lowers after the violations
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };
+
+/// A plane between 30 and 60 degrees of the axis.
+bool is_chamfer(const CadFace& face, const Mat3& frame, int axis);
 
 /// The best labelling that the search finds, valid or not: whether it can be realised, the map decides. Cuts the mesh along chart boundaries inside
 /// smooth faces, so that they run straight; slivers that this leaves are absorbed (strays.h).

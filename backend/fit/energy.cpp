@@ -7,6 +7,7 @@
 
 #include "core/hexahedron.h"
 #include "core/parallel.h"
+#include "core/quality.h"
 
 namespace polycube {
 
@@ -41,6 +42,25 @@ double determinant(const std::vector<Vec3>& points, const Hex& hex, int c, const
   const Vec3& x = points[hex[c]];
   const auto& n = kCornerNeighbours[c];
   return (points[hex[n[0]]] - x).dot((points[hex[n[1]]] - x).cross(points[hex[n[2]]] - x)) / lengths.prod();
+}
+
+// The derivatives of the trilinear map of [0, 1]^3 at the 27 integration points, by the corners' places: one row an axis.
+using Derivatives = Eigen::Matrix<double, 3, 8>;
+std::array<Derivatives, 27> inner_derivatives() {
+  std::array<Derivatives, 27> result;
+  const double g = std::sqrt(0.6);
+  for (int p = 0; p < 27; ++p) {
+    const Vec3 at(g * (p / 9 - 1), g * (p / 3 % 3 - 1), g * (p % 3 - 1));
+    for (int c = 0; c < 8; ++c) {
+      Vec3 sign, share;
+      for (int a = 0; a < 3; ++a) {
+        sign[a] = 2 * kCornerCoordinates[c][a] - 1;
+        share[a] = (1 + sign[a] * at[a]) / 2;
+      }
+      for (int a = 0; a < 3; ++a) result[p](a, c) = sign[a] * share[(a + 1) % 3] * share[(a + 2) % 3];
+    }
+  }
+  return result;
 }
 
 // Energy of one corner and its derivatives by the three scaled edge vectors.
@@ -159,6 +179,8 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& 
     for (int i = first; i < last; ++i) {
       const int h = region.hexes[i];
       for (int c = 0; c < 8; ++c) partial[chunk] = std::min(partial[chunk], determinant(mesh_.points, mesh_.hexes[h], c, targets[h]));
+      if (region.watched.empty() || !region.watched[i]) continue;
+      partial[chunk] = std::min(partial[chunk], 8 * least_inner_determinant(mesh_.points, mesh_.hexes[h]) / targets[h].prod());  // of [-1, 1]^3
     }
   });
   return partial.empty() ? kInfinity : *std::min_element(partial.begin(), partial.end());
@@ -166,6 +188,7 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& 
 
 double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
                          const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient) {
+  static const std::array<Derivatives, 27> inner = inner_derivatives();
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk);
   for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
@@ -187,6 +210,17 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
           g.col(kCornerNeighbours[c][k]) += by[k];
           g.col(c) -= by[k];
         }
+      }
+      if (region.watched.empty() || !region.watched[i]) continue;
+      Eigen::Matrix<double, 3, 8> corners;
+      for (int c = 0; c < 8; ++c) corners.col(c) = points[hex[c]];
+      for (const Derivatives& d : inner) {
+        std::array<Vec3, 3> j, by;
+        for (int a = 0; a < 3; ++a) j[a] = corners * d.row(a).transpose() * inverse[a];
+        const double value = corner_energy(energy, j, by);
+        sum += value;
+        if (value == kInfinity) break;
+        for (int a = 0; a < 3; ++a) g += inverse[a] * by[a] * d.row(a);
       }
     }
     partial[chunk] = sum;

@@ -24,6 +24,7 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 ///     + right * sum over k of (0.15 / |J_k|)^power
 /// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
 /// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
+/// Watched hexes are summed at their integration points too: there an element is judged, and good corners do not vouch for it.
 /// With a floor, a corner adds right / floor^2 * (floor / scaled Jacobian)^16: no cell near the floor gets worse for the sake of the others.
 /// Turns of mesh edges on curved CAD edges add powers of their angle.
 struct Energy {
@@ -37,6 +38,7 @@ struct Energy {
 struct Region {
   std::vector<int> hexes;  ///< over which is summed, ascending
   std::vector<int> nodes;  ///< that may move, ascending
+  std::vector<char> watched{};  ///< per hex of `hexes`; empty: none
 };
 
 /// A mesh edge on a curved CAD edge: the angle by which the curve turns along it, linear in the places of its ends. Long chords of a circle cut

@@ -19,11 +19,31 @@ namespace {
 constexpr int kFew = 4;            // inverted cells worth another start: more of them have a cause that none mends
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
-constexpr double kSuspect = 0.3;   // scaled Jacobian up to which a cell may be inverted inside though its corners are not
+constexpr double kPoor = 0.3;      // scaled Jacobian up to which a cell may be inverted inside though its corners are not
+constexpr double kTwisted = 0.85;  // cosine: so may any cell whose edges along one axis are further from their mean than this
+
+// Whether the cell has to be looked at inside: good corners vouch for it only where its opposite edges go the same way.
+bool suspect(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacobian) {
+  if (scaled_jacobian <= kPoor) return true;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<Vec3, 4> along;
+    Vec3 sum = Vec3::Zero();
+    int count = 0;
+    for (const auto& [c, d] : kHexEdges) {
+      const int step = kCornerCoordinates[d][axis] - kCornerCoordinates[c][axis];
+      if (step == 0) continue;
+      along[count] = step * (points[hex[d]] - points[hex[c]]).normalized();
+      sum += along[count++];
+    }
+    const double least = kTwisted * sum.norm();
+    if (std::any_of(along.begin(), along.end(), [&](const Vec3& e) { return e.dot(sum) < least; })) return true;
+  }
+  return false;
+}
 
 // Inverted at an integration point but at no corner.
 bool hollow(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacobian) {
-  return scaled_jacobian > 0 && scaled_jacobian <= kSuspect && !(least_inner_determinant(points, hex) > 0);
+  return scaled_jacobian > 0 && suspect(points, hex, scaled_jacobian) && !(least_inner_determinant(points, hex) > 0);
 }
 
 // How good a mesh is: first no inverted cells, then no hollow ones, then the worst cell up to a goal, then the mean.
@@ -98,6 +118,7 @@ class Fitting {
     monitor_.progress("fit", 0.5);
     if (score_.inverted == 0) {
       square_up();
+      if (score_.hollow > 0) fill_hollow();
       monitor_.progress("fit", 0.8);
       if (score_.worst < goal() || score_.hollow > 0) {
         raise_worst();
@@ -154,13 +175,15 @@ class Fitting {
 
   // The cells with a scaled Jacobian of at most `limit` and some layers round them; nodes on the rim stay.
   Region around(double limit, int layers) const {
-    std::vector<char> in(mesh_.hexes.size(), 0);
-    std::vector<int> front;
+    std::vector<int> bad;
     for (int h : whole_.hexes) {
-      if (scaled_jacobian(mesh_.points, mesh_.hexes[h]) > limit) continue;
-      in[h] = 1;
-      front.push_back(h);
+      if (scaled_jacobian(mesh_.points, mesh_.hexes[h]) <= limit) bad.push_back(h);
     }
+    return around(std::move(bad), layers);
+  }
+  Region around(std::vector<int> front, int layers) const {
+    std::vector<char> in(mesh_.hexes.size(), 0);
+    for (int h : front) in[h] = 1;
     Region region;
     for (int layer = 0; layer < layers; ++layer) {
       std::vector<int> next;
@@ -239,10 +262,29 @@ class Fitting {
     }
   }
 
+  // Corners all positive do not make a cell positive inside: such cells are untangled at their integration points, and watched from then on.
+  void fill_hollow() {
+    for (int layers = 2; score_.hollow > 0 && layers <= 6; layers += 2) {
+      std::vector<int> cells;
+      for (int h : whole_.hexes) {
+        if (hollow(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h]))) cells.push_back(h);
+      }
+      untangle(watching(around(std::move(cells), layers)), 50);
+      restore();
+    }
+    watching_ = score_.hollow == 0;
+  }
+
+  // The same region, with an eye on the inside of doubtful cells.
+  Region watching(Region region) const {
+    for (int h : region.hexes) region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
+    return region;
+  }
+
   // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as before.
   bool square_up(const Region& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, region, chains_.turns(mesh_.points, entities_), iterations);
+    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region, chains_.turns(mesh_.points, entities_), iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points, &region.nodes);
     monitor_.check();
@@ -322,6 +364,7 @@ class Fitting {
   Region whole_;
   std::vector<Vec3> best_;
   Score score_;
+  bool watching_ = false;  // cells were inverted inside, and are no more
   double held_ = std::numeric_limits<double>::infinity();  // while polishing: a worst cell above this is no gain
 };
 

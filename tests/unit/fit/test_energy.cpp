@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/quality.h"
 #include "fit/energy.h"
 #include "support/grids.h"
 
@@ -80,6 +82,44 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
   // At right angles (scaled Jacobian 1) the eight corners add 1 / floor^2 * floor^16 each.
   EXPECT_NEAR(energy(0.5) - energy(0), 8 * std::pow(0.5, 14), 1e-12);
   EXPECT_NEAR(energy(1.25) - energy(0), 8 * std::pow(1.25, 14), 1e-9);
+}
+
+// All corners of this cell are good (scaled Jacobian 0.4), yet it is inverted inside.
+TEST(Descent, WatchedCellsAreLookedAtInside) {
+  testing::Grid grid = testing::box_grid(3);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  const HexGraph graph = build_hex_graph(grid.mesh);
+  Entities entities(model, grid.association, 1);
+  entities.project(grid.mesh.points);
+  const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(1.0 / 3));
+  const std::array<Vec3, 8> hollow{Vec3(0.74, 0.09, 0.29), Vec3(1.28, -0.21, 0.67), Vec3(1.06, 1.6, 0.34),  Vec3(0.05, 1.5, 0.61),
+                                   Vec3(0.57, -0.03, 0.77), Vec3(0.63, -0.01, 0.78), Vec3(1.11, 1.61, 0.37), Vec3(1.23, 1.12, 2.01)};
+  Region region;
+  for (int h = 0; h < static_cast<int>(grid.mesh.hexes.size()); ++h) {
+    const Hex& hex = grid.mesh.hexes[h];
+    if (std::any_of(hex.begin(), hex.end(), [&](int v) { return entities.dimension(v) < 3; })) continue;
+    region.hexes = {h};
+    region.nodes.assign(hex.begin(), hex.end());
+    for (int c = 0; c < 8; ++c) grid.mesh.points[hex[c]] = hollow[c] / 3;
+  }
+  ASSERT_EQ(region.hexes.size(), 1u);
+  std::sort(region.nodes.begin(), region.nodes.end());
+  Region watched = region;
+  watched.watched = {1};
+  const Monitor monitor;
+  Descent descent(grid.mesh, graph, entities, 1, monitor);
+  EXPECT_GT(scaled_jacobian(grid.mesh.points, grid.mesh.hexes[region.hexes[0]]), 0.4);
+  EXPECT_GT(descent.min_determinant(targets, region), 0);
+  EXPECT_LT(descent.min_determinant(targets, watched), 0);
+  EXPECT_TRUE(std::isfinite(descent.run({0, 1, 2}, targets, region, {}, 0).energy));
+  EXPECT_FALSE(std::isfinite(descent.run({0, 1, 2}, targets, watched, {}, 0).energy));
+  Energy energy;
+  energy.eps = 0.1;
+  descent.run(energy, targets, watched, {}, 200);
+  EXPECT_GT(descent.min_determinant(targets, watched), 0);
+  energy.eps = 0;
+  descent.run(energy, targets, watched, {}, 200);
+  EXPECT_GT(scaled_jacobian(grid.mesh.points, grid.mesh.hexes[region.hexes[0]]), 0.999);
 }
 
 // Steps along curved entities stay on them to third order, and gradients by steps are those of the bent place.

@@ -313,13 +313,15 @@ class Fitting {
   }
 
   // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are. The floor rises with
-  // them.
+  // them, and where it did not hold them.
   void polish() {
-    constexpr double kHeld = 0.98, kFloor = 1.2;
+    constexpr double kHeld = 0.98, kHigher = 1.1, kHighest = 1.5;
     held_ = kHeld * score_.worst;
-    double gain = 1;
+    double gain = 1, floor = 1.2;
     for (int round = 0; round < 5 && gain > 1e-3; ++round) {
-      if (!square_up(whole_, 2, 40, &gain, kFloor * score_.worst)) break;
+      if (square_up(whole_, 2, 40, &gain, floor * score_.worst)) continue;
+      floor *= kHigher;
+      if (floor > kHighest) break;
     }
   }
 

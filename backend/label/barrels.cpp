@@ -18,12 +18,19 @@ constexpr double kNear = kPi / 36;
 // Of the axis of a barrel with a direction across it.
 constexpr double kAcross = 0.1;
 
+double mean_side(const TetMesh& mesh) {
+  double sum = 0;
+  for (const Triangle& t : mesh.triangles) sum += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
+  return sum / static_cast<double>(mesh.triangles.size());
+}
+
 double turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
 }  // namespace
 
-Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided)
+Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, bool room)
     : model_(model), mesh_(mesh), frame_(frame), barrels_(static_cast<std::size_t>(model.face_count()) + 1) {
+  const double size = room ? mean_side(mesh) : 0;
   for (int f = 1; f <= model.face_count(); ++f) {
     const CadFace& face = model.face(f);
     if (!divided[f] || (face.kind != SurfaceKind::kCylinder && face.kind != SurfaceKind::kCone)) continue;
@@ -42,12 +49,25 @@ Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
       n = n.cwiseAbs();
       std::sort(n.data(), n.data() + 3);
       if (std::atan2(n[2], n[1]) < kPi / 4 + kNear) continue;
-      if (std::none_of(barrel.cuts.begin(), barrel.cuts.end(), [&](double c) { return std::abs(turn(c, at)) < kNear; })) barrel.cuts.push_back(at);
+      cut_at(barrel, at);
+    }
+    if (room) {
+      for (const Strip& strip : find_strips(model, frame, f, size)) {
+        const double at = angle(f, face.centre + strip.generator[1]);
+        barrel.generators.push_back(at);
+        cut_at(barrel, at);
+        strips_.push_back(strip);
+      }
     }
     std::sort(barrel.generators.begin(), barrel.generators.end());
     std::sort(barrel.cuts.begin(), barrel.cuts.end());
     if (barrel.cuts.size() < 2) barrel.cuts.clear();  // one generator does not divide a full turn, and a part of one has its end there
   }
+}
+
+void Barrels::cut_at(Barrel& barrel, double angle) {
+  const bool new_cut = std::none_of(barrel.cuts.begin(), barrel.cuts.end(), [&](double c) { return std::abs(turn(c, angle)) < kNear; });
+  if (new_cut) barrel.cuts.push_back(angle);
 }
 
 double Barrels::angle(int face, const Vec3& p) const {

@@ -3,13 +3,16 @@
 
 #include "cad/cad.h"
 #include "label/straighten.h"
+#include "label/strips.h"
 
 namespace polycube {
 
 class Barrels {
  public:
-  /// `divided`: per CAD face, whether it may have more labels than one. Keeps references to model and mesh.
-  Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided);
+  /// `divided`: per CAD face, whether it may have more labels than one. `room`: with cuts beside edges (strips.h) too. Keeps references to model and mesh.
+  Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, bool room);
+
+  const std::vector<Strip>& strips() const { return strips_; }
 
   /// Number of the piece between two cuts that a triangle lies in; 0 on faces without cuts.
   int sector(int triangle) const;
@@ -22,9 +25,10 @@ class Barrels {
  private:
   struct Barrel {
     std::array<Vec3, 2> across{};    // directions of angle 0 and 90 degrees, in model space
-    std::vector<double> generators;  // angles of the vertices on its border, ascending
+    std::vector<double> generators;  // angles of the vertices on its border and of the ends of strips, ascending
     std::vector<double> cuts;        // those that it is cut at
   };
+  static void cut_at(Barrel& barrel, double angle);
   double angle(int face, const Vec3& p) const;
   double mean_angle(int face, const std::vector<int>& nodes) const;
   double share_beyond(int face, const Region& region, double cut) const;
@@ -33,6 +37,7 @@ class Barrels {
   const TetMesh& mesh_;
   Mat3 frame_;
   std::vector<Barrel> barrels_;  // per CAD face
+  std::vector<Strip> strips_;
 };
 
 }  // namespace polycube

@@ -48,6 +48,7 @@ struct Setup {
   const LabelOptions& options;
   const Tips* tips;           // null: those faces are treated as others
   std::vector<FaceCut> cuts;  // per CAD face: how it is divided, zero for the usual way
+  bool room;                  // beside edges on barrels (strips.h)
   Mat3 frame;
   std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
   std::vector<double> area;
@@ -107,8 +108,8 @@ double change_weight(double angle, bool same_face) {
 }
 
 Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
-              std::vector<FaceCut> face_cuts) {
-  Setup s{model, mesh, options, tips, std::move(face_cuts), frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
+              std::vector<FaceCut> face_cuts, bool room) {
+  Setup s{model, mesh, options, tips, std::move(face_cuts), room, frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
   const auto n = mesh.triangles.size();
   s.normal.resize(n);
   s.area.resize(n);
@@ -335,11 +336,11 @@ std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& jo
 
 // `tips`: null where faces with a tip are treated as others; else `mesh` is cut as theirs.
 std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
-                                const std::vector<FaceCut>& cuts, const Monitor& monitor) {
-  Setup prepared = prepare(model, mesh, options, tips, frame, cuts);
+                                const std::vector<FaceCut>& cuts, bool room, const Monitor& monitor) {
+  Setup prepared = prepare(model, mesh, options, tips, frame, cuts, room);
   std::vector<char> divided(prepared.whole.size());
   std::transform(prepared.whole.begin(), prepared.whole.end(), divided.begin(), [](char whole) { return !whole; });
-  auto plan = std::make_unique<Plan>(Plan{std::move(prepared), {}, Barrels(model, mesh, frame, divided), {}, {}, {}, {}});
+  auto plan = std::make_unique<Plan>(Plan{std::move(prepared), {}, Barrels(model, mesh, frame, divided, room), {}, {}, {}, {}});
   const Setup& s = plan->setup;
   std::vector<int> first = cut_triangles(s, monitor);
   for (std::size_t t = 0; t < first.size(); ++t) {
@@ -370,6 +371,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
+  give_room(model, mesh, plan->barrels.strips(), graph, region_label);
   for (double strictness = options.gradual ? std::min(kFirstStrictness, options.strictness) : options.strictness;; strictness *= 2) {
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
@@ -408,9 +410,10 @@ bool label_changes_at_tip(const Plan& plan) {
 std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Tips& tips, const Monitor& monitor) {
   const Mat3 frame = options.frame_given ? options.frame : find_frame(model);
   const std::vector<FaceCut> usual(static_cast<std::size_t>(model.face_count()) + 1);
-  std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, monitor);
+  std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, true, monitor);
+  if (best->left.score > 0 && !best->barrels.strips().empty()) best = make_plan(model, mesh, options, nullptr, frame, usual, false, monitor);
   const auto better_with = [&](const Tips* with, const std::vector<FaceCut>& cuts) {
-    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : mesh, options, with, frame, cuts, monitor);
+    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : mesh, options, with, frame, cuts, best->setup.room, monitor);
     if (plan->left.score >= best->left.score) return false;
     best = std::move(plan);
     return true;
@@ -418,7 +421,7 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   if (best->left.valid() && !label_changes_at_tip(*best)) return best;
   tips = divide_tips(model, mesh, frame, monitor);
   if (tips.any) {
-    std::unique_ptr<Plan> divided = make_plan(model, tips.mesh, options, &tips, frame, usual, monitor);
+    std::unique_ptr<Plan> divided = make_plan(model, tips.mesh, options, &tips, frame, usual, best->setup.room, monitor);
     // Where the labels change at a tip there is no telling from a few triangles which of them meet there, unless they are cut for it.
     if (divided->left.valid() || divided->left.score < best->left.score) best = std::move(divided);
   }
@@ -452,7 +455,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   if (plan->setup.tips) {
     // Borders ask for points that cutting adds: the plan must stand on the mesh that is cut.
     mesh = tips.mesh;
-    plan = make_plan(model, mesh, options, &tips, plan->setup.frame, plan->setup.cuts, monitor);
+    plan = make_plan(model, mesh, options, &tips, plan->setup.frame, plan->setup.cuts, plan->setup.room, monitor);
   }
   monitor.progress("label", 0.5);
   const RegionGraph& graph = plan->graph;

@@ -198,6 +198,11 @@ std::string turned(double radius, double height, double groove) {
   return text(ShapeCustom::ConvertToRevolution(turned));
 }
 
+std::string forked_bar(double radius, double arm) {
+  const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, -2.5 * radius}, {0, 0, 1}), radius, 5 * radius).Shape();
+  return text(solid(BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 1}), arm, 3.3 * radius).Shape()).Shape()));
+}
+
 std::string tangent_arm(double radius, double bore) {
   const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(radius, 2 * radius).Shape(), arm = block({0, -radius, 0.75 * radius}, {3 * radius, radius, 1.25 * radius});
   return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(bar, arm).Shape(), BRepPrimAPI_MakeCylinder(bore, 2 * radius).Shape()).Shape()));

@@ -1,4 +1,4 @@
-// Bores that come out aslant, and the tips that drills leave.
+// Bores and arms that go aslant, and the tips that drills leave.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,6 +42,16 @@ TEST(ObliqueBore, IsMeshedWithAllItsEdges) {
   const MeshResult result = mesh(model, options, Monitor());
   EXPECT_TRUE(result.association.lost_edges.empty());
   EXPECT_GT(result.report.quality.min_scaled_jacobian, 0.2);
+}
+
+// The arm comes within 3 degrees of the line at 45 degrees, where the bar's front would end.
+TEST(ForkedBar, AThickArmLeavesNoFlaws) {
+  const LabelledPart part = label_part(CadModel::from_brep(shapes::forked_bar(6, 4)), MeshOptions(), Monitor());
+  const Inspection found = inspect(part);
+  EXPECT_TRUE(found.violations.valid());
+  EXPECT_TRUE(found.turning_points.empty());
+  EXPECT_EQ(part.flipped, 0);
+  EXPECT_EQ(edge_table(part).lost, 0);
 }
 
 TEST(DrilledBlock, TheTipIsADisc) {

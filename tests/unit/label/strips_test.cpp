@@ -1,0 +1,80 @@
+#include "label/strips.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "core/charts.h"
+#include "label/graph_cut.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+// The face of the bar, which stands along Z.
+int bar_of(const CadModel& model) {
+  for (int f = 1; f <= model.face_count(); ++f) {
+    if (model.face(f).kind == SurfaceKind::kCylinder && std::abs(model.face(f).axis[2]) > 0.99) return f;
+  }
+  return 0;
+}
+
+TEST(Strips, LeaveRoomBesideAThickArm) {
+  const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
+  const int bar = bar_of(model);
+  const auto strips = find_strips(model, Mat3::Identity(), bar, 1);
+  ASSERT_EQ(strips.size(), 2u);  // left and right of the arm
+  const double widest = std::asin(4.0 / 6);
+  for (const Strip& s : strips) {
+    EXPECT_EQ(s.face, bar);
+    EXPECT_EQ(label_axis(s.label), 0);
+    EXPECT_EQ(label_sign(s.label), 1);  // the arm is on the +X side
+    const auto turn = [](const Vec3& v) { return std::abs(std::atan2(v[1], v[0])); };
+    EXPECT_NEAR(turn(s.generator[0]), M_PI / 4, 0.05);
+    EXPECT_GT(turn(s.generator[1]), widest + M_PI / 20);
+    EXPECT_LT(turn(s.generator[1]), widest + M_PI / 6);
+  }
+  EXPECT_LT(strips[0].generator[1][1] * strips[1].generator[1][1], 0);
+}
+
+TEST(Strips, NoneBesideAThinArmOrOnABareBar) {
+  const CadModel thin = CadModel::from_brep(shapes::forked_bar(6, 2));
+  EXPECT_TRUE(find_strips(thin, Mat3::Identity(), bar_of(thin), 1).empty());
+  const CadModel bare = CadModel::from_brep(shapes::cylinder(6, 20));
+  EXPECT_TRUE(find_strips(bare, Mat3::Identity(), bar_of(bare), 1).empty());
+}
+
+TEST(Strips, AreGivenToTheirSideUnlessTheyMayNotHaveIt) {
+  const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
+  const int bar = bar_of(model);
+  const auto strips = find_strips(model, Mat3::Identity(), bar, 1);
+  ASSERT_EQ(strips.size(), 2u);
+  // One region in the first strip, one opposite of it.
+  const Vec3 inside = 6 * (strips[0].generator[0] + strips[0].generator[1]).normalized();
+  TetMesh mesh;
+  RegionGraph graph;
+  for (const Vec3& at : {inside, Vec3(-inside)}) {
+    const int n = static_cast<int>(mesh.points.size());
+    for (int k = 0; k < 3; ++k) mesh.points.push_back(at);
+    mesh.triangles.push_back({n, n + 1, n + 2});
+    Region region;
+    region.face = bar;
+    region.triangles = {n / 3};
+    region.data = {7, 8, 5, 6, 9, 9};
+    graph.regions.push_back(region);
+  }
+  std::vector<int> label{2, 3};
+  give_room(model, mesh, strips, graph, label);
+  EXPECT_EQ(label, (std::vector<int>{0, 3}));
+  EXPECT_EQ(graph.regions[0].data, (std::array<double, 6>{5, 8, 7, 6, 9, 9}));  // no dearer than what it had
+  EXPECT_EQ(graph.regions[1].data, (std::array<double, 6>{7, 8, 5, 6, 9, 9}));
+
+  graph.regions[0].data[0] = kForbidden;
+  label = {2, 3};
+  give_room(model, mesh, strips, graph, label);
+  EXPECT_EQ(label, (std::vector<int>{2, 3}));
+}
+
+}  // namespace
+}  // namespace polycube

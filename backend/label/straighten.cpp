@@ -12,6 +12,8 @@ namespace {
 
 // A point nearer to the border than this share of the edge that crosses it is put on the border.
 constexpr double kSnap = 0.2;
+// The smallest piece of an edge that is cut.
+constexpr double kThinnest = 0.05;
 // A border bends towards where it has to end over this many times the way it is off there, and this many mean edges at least.
 constexpr double kBendLength = 5, kBendEdges = 2;
 // Mean edges within which a border is looked for about the place where it ended before.
@@ -136,7 +138,7 @@ class Cutter {
     for (const auto& [a, b] : edges) {
       const double va = value[a], vb = value[b];
       if (va == kNoOpinion || vb == kNoOpinion || va * vb >= 0) continue;
-      const double t = std::clamp(va / (va - vb), kSnap, 1 - kSnap);
+      const double t = std::clamp(va / (va - vb), kThinnest, 1 - kThinnest);
       value[editor_.split_edge(a, b, (1 - t) * mesh_.points[a] + t * mesh_.points[b])] = 0;
       origins_.push_back({a, b, t});
     }
@@ -155,6 +157,7 @@ class Cutter {
   }
 
   // Points next to the border count as on it; those that may move, inside their face or along their CAD edge, are put there, so that the border is straight.
+  // Where that would turn a tet inside out the border passes beside the point.
   void snap(const std::set<Segment>& edges, std::map<int, double>& value) {
     std::map<int, std::pair<double, Vec3>> moves;  // shortest first
     std::set<int> snapped;
@@ -173,10 +176,14 @@ class Cutter {
       if (t < kSnap) towards(a, b, t);
       if (t > 1 - kSnap) towards(b, a, 1 - t);
     }
-    for (int n : snapped) value[n] = 0;
     for (const auto& [node, move] : moves) {
-      if (editor_.move(node, mesh_.points[node] + move.second)) moved_.insert(node);
+      if (editor_.move(node, mesh_.points[node] + move.second)) {
+        moved_.insert(node);
+      } else {
+        snapped.erase(node);
+      }
     }
+    for (int n : snapped) value[n] = 0;
   }
 
   TetMesh& mesh_;

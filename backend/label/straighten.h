@@ -19,7 +19,7 @@ struct BorderFunction {
 inline constexpr double kNoOpinion = std::numeric_limits<double>::infinity();
 
 /// Cuts the mesh along the zeros of the functions, in their order, and gives the triangles of the two regions by sign. Points within a fifth of an edge of
-/// a border are put on it. A border that ends on a CAD vertex goes there, one that ends on a CAD edge where another has ended before goes where that one did
+/// a border are put on it, unless that would turn a tet inside out. A border that ends on a CAD vertex goes there, one that ends on a CAD edge where another has ended before goes where that one did
 /// after its cut. Returns the region of every triangle of the changed mesh.
 std::vector<int> cut_along(TetMesh& mesh, const std::vector<int>& triangle_region, const std::vector<BorderFunction>& borders, const Monitor& monitor);
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <set>
 
 #include "support/tet_grid.h"
@@ -74,6 +75,43 @@ TEST(CutAlong, BordersAreStraightWhetherPointsAreSplitOrMoved) {
     EXPECT_EQ(cube.between(regions, 10), std::set<double>{at});
     EXPECT_NEAR(volume(cube.mesh), 216, 1e-9);
   }
+}
+
+// A tet so flat that the point on the surface, (3, 3, 6), cannot be moved onto the border: it would be turned inside out.
+void hold_a_point(TetMesh& mesh) {
+  const int held = 3 + 7 * 3 + 7 * 7 * 6;
+  const auto six_volumes = [&](const Tet& t) {
+    return (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]).dot(mesh.points[t[3]] - mesh.points[t[0]]);
+  };
+  const auto sound = [&] { return std::all_of(mesh.tets.begin(), mesh.tets.end(), [&](const Tet& t) { return six_volumes(t) > 0; }); };
+  for (const Tet& tet : mesh.tets) {
+    if (std::find(tet.begin(), tet.end(), held) == tet.end()) continue;
+    for (int inner : tet) {
+      if (mesh.point_cad[inner].dim != 3) continue;
+      std::vector<Vec3> others;
+      for (int n : tet) {
+        if (n != inner) others.push_back(mesh.points[n]);
+      }
+      const Vec3 before = mesh.points[inner], normal = (others[1] - others[0]).cross(others[2] - others[0]).normalized();
+      mesh.points[inner] -= 0.99 * (before - others[0]).dot(normal) * normal;
+      if (sound()) {
+        mesh.points[held][0] += 0.1;
+        const bool is_held = !sound();
+        mesh.points[held][0] -= 0.1;
+        if (is_held) return;
+      }
+      mesh.points[inner] = before;
+    }
+  }
+  FAIL() << "no tet can be flattened";
+}
+
+TEST(CutAlong, ABorderPassesBesideAPointThatCannotBeMoved) {
+  Cube cube;
+  hold_a_point(cube.mesh);
+  const std::vector<int> regions = cut_along(cube.mesh, cube.region, {cube.border(10, 3.1)}, Monitor());
+  EXPECT_EQ(cube.between(regions, 10), std::set<double>{3.1});
+  volume(cube.mesh);
 }
 
 TEST(CutAlong, BordersOfTwoFacesThatEndTogetherStillDo) {

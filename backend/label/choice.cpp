@@ -83,6 +83,13 @@ bool better(const Labelled& a, const Labelled& b) {
 
 }  // namespace
 
+LabelVariant plain(LabelVariant v) {
+  v.strictness = LabelVariant{}.strictness;
+  v.narrow_regions = LabelVariant{}.narrow_regions;
+  v.gradual = LabelVariant{}.gradual;
+  return v;
+}
+
 LabelChoice::LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out,
                          const Monitor& monitor)
     : model_(model), mesh_(mesh), options_(options), frames_(std::move(frames)), left_out_(std::move(left_out)), monitor_(monitor) {}
@@ -120,6 +127,8 @@ const std::vector<LabelVariant>& LabelChoice::order() {
     if (first.faults > 0 && other.faults > 0) continue;
     if (better(other, first)) std::swap(twins[0], twins[1]);
     std::rotate(order_.begin(), twins, twins + step);
+    // Where there is nothing to repair other ways of repair would bring the same.
+    std::stable_partition(order_.begin() + step, order_.end(), [](const LabelVariant& v) { return v == plain(v); });
     return order_;
   }
   std::stable_sort(order_.begin(), order_.end(), [&](const LabelVariant& a, const LabelVariant& b) { return better(labelled(a), labelled(b)); });

@@ -21,6 +21,9 @@ struct LabelVariant {
   friend auto operator<=>(const LabelVariant&, const LabelVariant&) = default;
 };
 
+/// What the search for labels begins with, for faces treated alike: where nothing is wrong with its labels, those of other ways of repair are the same.
+LabelVariant plain(LabelVariant v);
+
 struct Labelled {
   LabelVariant variant;
   TetMesh mesh;             ///< cut along the borders of its labels
@@ -36,9 +39,9 @@ class LabelChoice {
   /// `frames`: at least one, the best first; those of `options` do not count. `left_out` as for find_features. Keeps references to model, mesh and monitor.
   LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out, const Monitor& monitor);
 
-  /// All variants, those to try first in front. The first pair that differs in widest_bend only and has one without faults ends the search: the better of
-  /// the two comes first, then the other, then the others as they are listed. Where each has faults, the least faulty come first, then those with most
-  /// features, then those nearest to the normals.
+  /// All variants, those to try first in front. The first without faults ends the search: the better of it and the one that differs from it in widest_bend
+  /// only comes first, then the other, then those with other frames, chamfers and compactness, then those that repair otherwise. Where each has faults, the
+  /// least faulty come first, then those with most features, then those nearest to the normals.
   const std::vector<LabelVariant>& order();
   const Labelled& labelled(const LabelVariant& variant);
 

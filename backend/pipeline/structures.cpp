@@ -9,14 +9,6 @@
 namespace polycube {
 namespace {
 
-// What the search for labels begins with, for faces treated alike.
-LabelVariant plain(LabelVariant v) {
-  v.strictness = LabelVariant{}.strictness;
-  v.narrow_regions = LabelVariant{}.narrow_regions;
-  v.gradual = LabelVariant{}.gradual;
-  return v;
-}
-
 // Labellings whose maps are compared.
 constexpr std::size_t kMapped = 4;
 // Flipped tets that the blocks bear easily.

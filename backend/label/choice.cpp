@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <tuple>
+#include <utility>
 
 namespace polycube {
 namespace {
@@ -14,6 +14,8 @@ namespace {
 // A quarter of a cylinder keeps one label.
 constexpr double kFilletsWhole = 0.96;
 constexpr double kStrict = 1000;
+// What a CAD edge without feature charts weighs against faults; a turning point weighs 3.
+constexpr double kLostFeature = 3;
 constexpr std::array kCompactness{3.0, 0.3};
 
 // What the shape gives a choice of.
@@ -60,10 +62,19 @@ std::vector<LabelVariant> variants(const Choices& choices) {
   for (int axis = 0; axis < 3; ++axis) {
     if (choices.chamfers[axis]) add({.chamfer_axis = axis});
   }
-  for (int f = 1; f < choices.frames; ++f) add({.frame = f});
+  for (int f = 1; f < choices.frames; ++f) list.push_back({.frame = f});  // costly: most faces are oblique in it
   for (const double compactness : kCompactness) add({.compactness = compactness});
   add({.gradual = false});
   return list;
+}
+
+using VariantIterator = std::vector<LabelVariant>::const_iterator;
+
+bool has_twin(VariantIterator v, VariantIterator end) {
+  if (v + 1 == end) return false;
+  LabelVariant twin = *v;
+  twin.widest_bend = v[1].widest_bend;
+  return twin == v[1];
 }
 
 std::string describe(const LabelVariant& v) {
@@ -77,9 +88,12 @@ std::string describe(const LabelVariant& v) {
   return text;
 }
 
-bool better(const Labelled& a, const Labelled& b) {
-  return std::tuple(a.faults, a.lost_features, a.report.energy) < std::tuple(b.faults, b.lost_features, b.report.energy);
-}
+// What is wrong before the labels are ranked by how near they are to the normals.
+double badness(const Labelled& l) { return l.faults + kLostFeature * l.lost_features; }
+
+bool better(const Labelled& a, const Labelled& b) { return std::pair(badness(a), a.report.energy) < std::pair(badness(b), b.report.energy); }
+
+bool same_labels(const Labelled& a, const Labelled& b) { return a.variant.frame == b.variant.frame && a.labelling.label == b.labelling.label; }
 
 }  // namespace
 
@@ -117,21 +131,34 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
 
 const std::vector<LabelVariant>& LabelChoice::order() {
   if (!order_.empty()) return order_;
-  const Choices choices = choices_of(model_, mesh_, frames_);
-  order_ = variants(choices);
-  const std::ptrdiff_t step = choices.bends ? 2 : 1;
-  for (auto twins = order_.begin(); twins != order_.end(); twins += step) {
-    const Labelled& first = labelled(*twins);
-    const bool settled = step == 1 || (first.faults == 0 && first.lost_features == 0);
-    const Labelled& other = settled ? first : labelled(twins[1]);
-    if (first.faults > 0 && other.faults > 0) continue;
-    if (better(other, first)) std::swap(twins[0], twins[1]);
-    std::rotate(order_.begin(), twins, twins + step);
+  order_ = variants(choices_of(model_, mesh_, frames_));
+  for (auto v = order_.begin(); v != order_.end();) {
+    const std::ptrdiff_t alike = has_twin(v, order_.end()) ? 2 : 1;
+    const Labelled& first = labelled(*v);
+    const bool settled = alike == 1 || (first.faults == 0 && first.lost_features == 0);
+    const Labelled& other = settled ? first : labelled(v[1]);
+    if (first.faults > 0 && other.faults > 0) {
+      v += alike;
+      continue;
+    }
+    if (better(other, first)) std::swap(v[0], v[1]);
+    std::rotate(order_.begin(), v, v + alike);
     // Where there is nothing to repair other ways of repair would bring the same.
-    std::stable_partition(order_.begin() + step, order_.end(), [](const LabelVariant& v) { return v == plain(v); });
+    std::stable_partition(order_.begin() + alike, order_.end(), [](const LabelVariant& l) { return l == plain(l); });
     return order_;
   }
   std::stable_sort(order_.begin(), order_.end(), [&](const LabelVariant& a, const LabelVariant& b) { return better(labelled(a), labelled(b)); });
+  // The same labels twice would take the place of others.
+  std::vector<LabelVariant> again;
+  for (auto v = order_.begin(); v != order_.end();) {
+    if (std::none_of(order_.begin(), v, [&](const LabelVariant& earlier) { return same_labels(labelled(earlier), labelled(*v)); })) {
+      ++v;
+    } else {
+      again.push_back(*v);
+      v = order_.erase(v);
+    }
+  }
+  order_.insert(order_.end(), again.begin(), again.end());
   return order_;
 }
 

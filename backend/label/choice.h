@@ -40,8 +40,8 @@ class LabelChoice {
   LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out, const Monitor& monitor);
 
   /// All variants, those to try first in front. The first without faults ends the search: the better of it and the one that differs from it in widest_bend
-  /// only comes first, then the other, then those with other frames, chamfers and compactness, then those that repair otherwise. Where each has faults, the
-  /// least faulty come first, then those with most features, then those nearest to the normals.
+  /// only comes first, then the other, then those with other frames, chamfers and compactness, then those that repair otherwise. Where each has faults, those
+  /// with fewest faults and lost features come first, of equals those nearest to the normals; those with the same labels as one before come last.
   const std::vector<LabelVariant>& order();
   const Labelled& labelled(const LabelVariant& variant);
 

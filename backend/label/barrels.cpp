@@ -18,19 +18,12 @@ constexpr double kNear = kPi / 36;
 // Of the axis of a barrel with a direction across it.
 constexpr double kAcross = 0.1;
 
-double mean_side(const TetMesh& mesh) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) sum += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
-  return sum / static_cast<double>(mesh.triangles.size());
-}
-
 double turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
 }  // namespace
 
-Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, bool room)
+Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, const Room* room)
     : model_(model), mesh_(mesh), frame_(frame), barrels_(static_cast<std::size_t>(model.face_count()) + 1) {
-  const double size = room ? mean_side(mesh) : 0;
   for (int f = 1; f <= model.face_count(); ++f) {
     const CadFace& face = model.face(f);
     if (!divided[f] || (face.kind != SurfaceKind::kCylinder && face.kind != SurfaceKind::kCone)) continue;
@@ -51,13 +44,11 @@ Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
       if (std::atan2(n[2], n[1]) < kPi / 4 + kNear) continue;
       cut_at(barrel, at);
     }
-    if (room) {
-      for (const Strip& strip : find_strips(model, frame, f, size)) {
-        const double at = angle(f, face.centre + strip.generator[1]);
-        barrel.generators.push_back(at);
-        cut_at(barrel, at);
-        strips_.push_back(strip);
-      }
+    for (const Strip& strip : room ? room->strips : std::vector<Strip>()) {
+      if (strip.face != f) continue;
+      const double at = angle(f, face.centre + strip.generator[1]);
+      barrel.generators.push_back(at);
+      cut_at(barrel, at);
     }
     std::sort(barrel.generators.begin(), barrel.generators.end());
     std::sort(barrel.cuts.begin(), barrel.cuts.end());

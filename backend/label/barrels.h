@@ -9,10 +9,8 @@ namespace polycube {
 
 class Barrels {
  public:
-  /// `divided`: per CAD face, whether it may have more labels than one. `room`: with cuts beside edges (strips.h) too. Keeps references to model and mesh.
-  Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, bool room);
-
-  const std::vector<Strip>& strips() const { return strips_; }
+  /// `divided`: per CAD face, whether it may have more labels than one. `room`: null, or where it is divided beside edges too. Keeps references to model and mesh.
+  Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, const Room* room);
 
   /// Number of the piece between two cuts that a triangle lies in; 0 on faces without cuts.
   int sector(int triangle) const;
@@ -37,7 +35,6 @@ class Barrels {
   const TetMesh& mesh_;
   Mat3 frame_;
   std::vector<Barrel> barrels_;  // per CAD face
-  std::vector<Strip> strips_;
 };
 
 }  // namespace polycube

@@ -130,7 +130,7 @@ void Halves::find_barrels() {
   barrel_.assign(s_.model.face_count() + 1, 0);
   for (int f = 1; f <= s_.model.face_count(); ++f) {
     const CadFace& face = s_.model.face(f);
-    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine) continue;
+    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine) continue;
     barrel_[f] = f;
     for (int e : face.edges) {
       const auto& [a, b] = s_.model.edge(e).faces;

@@ -3,6 +3,7 @@
 
 #include "label/divide.h"
 #include "label/straighten.h"
+#include "label/strips.h"
 
 namespace polycube {
 
@@ -16,6 +17,7 @@ struct FaceShapes {
   const std::vector<char>& flat;    ///< per CAD face: it hardly bends
   const std::vector<FaceCut>& cuts; ///< per CAD face: how an oblique plane is divided, zero for the usual way
   const Tips* tips;                 ///< null: faces that end in a point are treated as others
+  const Room* room;                 ///< null, or strips along barrels, which are not halved then
 
   bool has_tip(int face) const { return tips && !tips->axis[face].isZero(); }
 };

@@ -48,7 +48,7 @@ struct Setup {
   const LabelOptions& options;
   const Tips* tips;           // null: those faces are treated as others
   std::vector<FaceCut> cuts;  // per CAD face: how it is divided, zero for the usual way
-  bool room;                  // beside edges on barrels (strips.h)
+  const Room* room;           // null: none beside edges on barrels
   Mat3 frame;
   std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
   std::vector<double> area;
@@ -108,7 +108,7 @@ double change_weight(double angle, bool same_face) {
 }
 
 Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
-              std::vector<FaceCut> face_cuts, bool room) {
+              std::vector<FaceCut> face_cuts, const Room* room) {
   Setup s{model, mesh, options, tips, std::move(face_cuts), room, frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
   const auto n = mesh.triangles.size();
   s.normal.resize(n);
@@ -334,22 +334,29 @@ std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& jo
   return result;
 }
 
-// `tips`: null where faces with a tip are treated as others; else `mesh` is cut as theirs.
+// Per CAD face: may it have more labels than one?
+std::vector<char> may_change(const Setup& s) {
+  std::vector<char> divided(s.whole.size());
+  std::transform(s.whole.begin(), s.whole.end(), divided.begin(), [](char whole) { return !whole; });
+  return divided;
+}
+
+// `tips`: null where faces with a tip are treated as others; else `mesh` is cut as theirs. So with `room`.
 std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
-                                const std::vector<FaceCut>& cuts, bool room, const Monitor& monitor) {
+                                const std::vector<FaceCut>& cuts, const Room* room, const Monitor& monitor) {
   Setup prepared = prepare(model, mesh, options, tips, frame, cuts, room);
-  std::vector<char> divided(prepared.whole.size());
-  std::transform(prepared.whole.begin(), prepared.whole.end(), divided.begin(), [](char whole) { return !whole; });
+  const std::vector<char> divided = may_change(prepared);
   auto plan = std::make_unique<Plan>(Plan{std::move(prepared), {}, Barrels(model, mesh, frame, divided, room), {}, {}, {}, {}});
   const Setup& s = plan->setup;
   std::vector<int> first = cut_triangles(s, monitor);
   for (std::size_t t = 0; t < first.size(); ++t) {
     if (s.has_tip(mesh.triangle_face[t])) first[t] = tips->label[t];
   }
+  if (room) settle_lines(model, mesh, frame, *room, first);
   double edge = 0;
   for (const Triangle& t : mesh.triangles) edge += (mesh.points[t[0]] - mesh.points[t[1]]).norm();
   edge /= static_cast<double>(mesh.triangles.size());
-  plan->half.emplace(FaceShapes{model, mesh, s.frame, s.normal, s.whole, s.flat, s.cuts, s.tips}, first);
+  plan->half.emplace(FaceShapes{model, mesh, s.frame, s.normal, s.whole, s.flat, s.cuts, s.tips, room}, first);
   plan->split = split_regions(s, first, *plan->half, plan->barrels, edge);
   plan->graph = build_region_graph(mesh, plan->split.region);
   RegionGraph& graph = plan->graph;
@@ -371,7 +378,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
   std::vector<Vec3> points;
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
-  give_room(model, mesh, plan->barrels.strips(), graph, region_label);
+  if (room) give_strips(model, mesh, *room, graph, region_label);
   for (double strictness = options.gradual ? std::min(kFirstStrictness, options.strictness) : options.strictness;; strictness *= 2) {
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
@@ -405,21 +412,32 @@ bool label_changes_at_tip(const Plan& plan) {
   return std::any_of(labels.begin(), labels.end(), [](const auto& tip) { return tip.second.size() > 1; });
 }
 
+double cost(const Plan& plan) { return region_energy(plan.graph, plan.label); }
+
+// Barrels get room beside their edges where that leaves no violation and costs less, or there are violations otherwise; where it costs more, `spare` is
+// what to do if the cuts spoil the other.
+//
 // A labelling that stays invalid may lack a place to change its label: faces with tips are divided below the tip, then oblique planes beside the
 // violations in other ways, one after the other, as long as that leaves fewer violations.
-std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Tips& tips, const Monitor& monitor) {
+std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Room& room, Tips& tips,
+                                std::unique_ptr<Plan>& spare, const Monitor& monitor) {
   const Mat3 frame = options.frame_given ? options.frame : find_frame(model);
   const std::vector<FaceCut> usual(static_cast<std::size_t>(model.face_count()) + 1);
-  std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, true, monitor);
-  if (best->left.score > 0 && !best->barrels.strips().empty()) best = make_plan(model, mesh, options, nullptr, frame, usual, false, monitor);
+  std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, nullptr, monitor);
+  room = make_room(model, mesh, frame, may_change(best->setup), monitor);
+  if (!room.strips.empty()) {
+    std::unique_ptr<Plan> roomy = make_plan(model, room.mesh, options, nullptr, frame, usual, &room, monitor);
+    if (roomy->left.score == 0) (best->left.score > 0 || cost(*roomy) < cost(*best) ? best : spare) = std::move(roomy);
+  }
+  const TetMesh& base = best->setup.room ? room.mesh : mesh;
   const auto better_with = [&](const Tips* with, const std::vector<FaceCut>& cuts) {
-    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : mesh, options, with, frame, cuts, best->setup.room, monitor);
+    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : base, options, with, frame, cuts, best->setup.room, monitor);
     if (plan->left.score >= best->left.score) return false;
     best = std::move(plan);
     return true;
   };
   if (best->left.valid() && !label_changes_at_tip(*best)) return best;
-  tips = divide_tips(model, mesh, frame, monitor);
+  tips = divide_tips(model, base, frame, monitor);
   if (tips.any) {
     std::unique_ptr<Plan> divided = make_plan(model, tips.mesh, options, &tips, frame, usual, best->setup.room, monitor);
     // Where the labels change at a tip there is no telling from a few triangles which of them meet there, unless they are cut for it.
@@ -441,6 +459,19 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   return best;
 }
 
+// The labels of the triangles after all cuts. The plan stands on the mesh.
+Labelling realise(const Plan& plan, TetMesh& mesh, const Monitor& monitor) {
+  Labelling result;
+  result.frame = plan.setup.frame;
+  const std::vector<int> joined = join_halves(plan.graph, plan.split, *plan.half);
+  std::vector<int> triangle_region;
+  for (int r : plan.graph.triangle_region) triangle_region.push_back(joined[r]);
+  for (int r : cut_along(mesh, triangle_region, borders(plan, joined), monitor)) result.label.push_back(plan.label[r]);
+  split_tied_edges(mesh, result.label, monitor);
+  absorb_strays(mesh, result, monitor);
+  return result;
+}
+
 }  // namespace
 
 bool is_chamfer(const CadFace& face, const Mat3& frame, int axis) {
@@ -450,30 +481,35 @@ bool is_chamfer(const CadFace& face, const Mat3& frame, int axis) {
 
 Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {
   monitor.progress("label", 0);
+  Room room;
   Tips tips;
-  std::unique_ptr<Plan> plan = best_plan(model, mesh, options, tips, monitor);
-  if (plan->setup.tips) {
-    // Borders ask for points that cutting adds: the plan must stand on the mesh that is cut.
-    mesh = tips.mesh;
-    plan = make_plan(model, mesh, options, &tips, plan->setup.frame, plan->setup.cuts, plan->setup.room, monitor);
+  std::unique_ptr<Plan> spare;
+  std::unique_ptr<Plan> plan = best_plan(model, mesh, options, room, tips, spare, monitor);
+  // Borders ask for points that cutting adds: the plan must stand on the mesh that is cut.
+  if (plan->setup.tips || plan->setup.room) {
+    mesh = plan->setup.tips ? tips.mesh : room.mesh;
+    plan = make_plan(model, mesh, options, plan->setup.tips, plan->setup.frame, plan->setup.cuts, plan->setup.room, monitor);
   }
   monitor.progress("label", 0.5);
+  Labelling result = realise(*plan, mesh, monitor);
+  Violations left = find_violations(mesh, result.frame, result.label);
+  if (spare && left.score > 0) {
+    Labelling other = realise(*spare, room.mesh, monitor);
+    const Violations others = find_violations(room.mesh, other.frame, other.label);
+    if (others.score < left.score) {
+      mesh = std::move(room.mesh);
+      plan = std::move(spare);
+      result = std::move(other);
+      left = others;
+    }
+  }
   const RegionGraph& graph = plan->graph;
-  Labelling result;
-  result.frame = plan->setup.frame;
-  const std::vector<int> joined = join_halves(graph, plan->split, *plan->half);
-  std::vector<int> triangle_region;
-  for (int r : graph.triangle_region) triangle_region.push_back(joined[r]);
-  for (int r : cut_along(mesh, triangle_region, borders(*plan, joined), monitor)) result.label.push_back(plan->label[r]);
-  split_tied_edges(mesh, result.label, monitor);
-  absorb_strays(mesh, result, monitor);
-  const Violations left = find_violations(mesh, result.frame, result.label);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
   if (report) {
     *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs, left.poor_loops,
-               left.bad_corners, left.turning_points, left.bad_turns, left.score, region_energy(graph, plan->label)};
+               left.bad_corners, left.turning_points, left.bad_turns, left.score, cost(*plan)};
   }
   monitor.progress("label", 1);
   return result;

@@ -9,6 +9,7 @@
 
 #include "core/charts.h"
 #include "label/graph_cut.h"
+#include "label/straighten.h"
 
 namespace polycube {
 namespace {
@@ -23,7 +24,16 @@ constexpr double kClose = 0.5;
 constexpr double kBeyond = 30 * kDegree;
 // An edge that spans less runs along the barrel.
 constexpr double kStraight = 5 * kDegree;
+// The line is looked for by this much to both sides, and halved down to nothing.
+constexpr double kStep = 3 * kDegree;
+constexpr int kBisections = 40;
 constexpr int kSamples = 65;
+
+int label_of(const Vec3& n) {
+  int axis = 0;
+  n.cwiseAbs().maxCoeff(&axis);
+  return 2 * axis + (n[axis] < 0);
+}
 
 class Barrel {
  public:
@@ -38,9 +48,7 @@ class Barrel {
     const Vec3 n = frame_ * direction(angle);
     Vec3 by_size = n.cwiseAbs();
     std::sort(by_size.data(), by_size.data() + 3);
-    int axis = 0;
-    n.cwiseAbs().maxCoeff(&axis);
-    return {2 * axis + (n[axis] < 0), 2 * std::atan2(by_size[2], by_size[1]) - std::numbers::pi / 2};
+    return {label_of(n), 2 * std::atan2(by_size[2], by_size[1]) - std::numbers::pi / 2};
   }
 
  private:
@@ -61,10 +69,28 @@ std::vector<double> course(const CadModel& model, const Barrel& barrel, int edge
 
 // The strip beside the place at `angle` whose edges are on its lower (`side` 1) or upper (-1) side.
 std::optional<Strip> strip_beside(const Barrel& barrel, int face, double angle, double side, double room) {
-  double diagonal = kClose * room;
-  while (diagonal > -kBeyond && barrel.label(angle + side * diagonal).second > 2 * kDegree) diagonal -= kDegree;
-  if (diagonal <= -kBeyond) return std::nullopt;
-  return Strip{face, {barrel.direction(angle + side * diagonal), barrel.direction(angle + side * room)}, barrel.label(angle + side * (diagonal - 3 * kDegree)).first};
+  double way = kClose * room;
+  while (way > -kBeyond && barrel.label(angle + side * way).second > 2 * kDegree) way -= kDegree;
+  double near = angle + side * (way - kStep), far = angle + side * (way + kStep);
+  const int label = barrel.label(near).first;
+  if (way <= -kBeyond || barrel.label(far).first == label) return std::nullopt;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = (near + far) / 2;
+    (barrel.label(middle).first == label ? near : far) = middle;
+  }
+  return Strip{face, {barrel.direction((near + far) / 2), barrel.direction(angle + side * room)}, label};
+}
+
+// Is the direction in the strip?
+bool within(const Strip& s, const Vec3& arm) {
+  return s.generator[0].cross(arm).dot(arm.cross(s.generator[1])) > 0 && arm.dot(s.generator[0] + s.generator[1]) > 0;
+}
+
+Vec3 arm_to(const CadFace& face, const Vec3& p) { return p - face.centre - (p - face.centre).dot(face.axis) * face.axis; }
+
+Vec3 middle_of(const TetMesh& mesh, int triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3;
 }
 
 }  // namespace
@@ -93,20 +119,59 @@ std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int fac
   return strips;
 }
 
-void give_room(const CadModel& model, const TetMesh& mesh, const std::vector<Strip>& strips, RegionGraph& graph, std::vector<int>& label) {
+bool Room::on(int face) const {
+  return std::any_of(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == face; });
+}
+
+Room make_room(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, const Monitor& monitor) {
+  Room room;
+  double size = 0;
+  for (const Triangle& t : mesh.triangles) size += (mesh.points[t[0]] - mesh.points[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
+  for (int f = 1; f <= model.face_count(); ++f) {
+    const SurfaceKind kind = model.face(f).kind;
+    if (!divided[f] || (kind != SurfaceKind::kCylinder && kind != SurfaceKind::kCone)) continue;
+    const std::vector<Strip> found = find_strips(model, frame, f, size);
+    room.strips.insert(room.strips.end(), found.begin(), found.end());
+  }
+  if (room.strips.empty()) return room;
+  room.mesh = mesh;
+  std::vector<int> side;  // two for each CAD face; which one a triangle is on matters to the cutting only
+  for (int f : mesh.triangle_face) side.push_back(2 * f);
+  std::vector<BorderFunction> borders;
+  for (const Strip& s : room.strips) {
+    for (const Vec3& generator : s.generator) {
+      const CadFace& face = model.face(s.face);
+      borders.push_back({2 * s.face + 1, 2 * s.face, [&room, &face, generator](int n) {
+                           const Vec3 arm = arm_to(face, room.mesh.points[n]);
+                           return arm.dot(generator) > 0 ? face.axis.cross(generator).dot(arm) : kNoOpinion;
+                         }});
+    }
+  }
+  cut_along(room.mesh, side, borders, monitor);
+  return room;
+}
+
+void settle_lines(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const Room& room, std::vector<int>& label) {
+  for (std::size_t t = 0; t < label.size(); ++t) {
+    for (const Strip& s : room.strips) {
+      if (s.face != mesh.triangle_face[t]) continue;
+      const Vec3 arm = arm_to(model.face(s.face), middle_of(mesh, static_cast<int>(t)));
+      const Vec3 mirrored = 2 * arm.dot(s.generator[0]) * s.generator[0] - arm;
+      if (!within(s, arm) && !within(s, mirrored)) continue;
+      const int nearest = label_of(frame * arm), other = label_of(frame * mirrored);
+      if (label[t] == other) label[t] = nearest;
+    }
+  }
+}
+
+void give_strips(const CadModel& model, const TetMesh& mesh, const Room& room, RegionGraph& graph, std::vector<int>& label) {
   for (std::size_t r = 0; r < label.size(); ++r) {
     Region& region = graph.regions[r];
     Vec3 centre = Vec3::Zero();
-    for (int t : region.triangles) {
-      for (int n : mesh.triangles[t]) centre += mesh.points[n] / (3.0 * static_cast<double>(region.triangles.size()));
-    }
-    for (const Strip& s : strips) {
+    for (int t : region.triangles) centre += middle_of(mesh, t) / static_cast<double>(region.triangles.size());
+    for (const Strip& s : room.strips) {
       if (s.face != region.face || s.label == label[r] || region.data[s.label] >= kForbidden) continue;
-      const Vec3 axis = model.face(s.face).axis;
-      Vec3 arm = centre - model.face(s.face).centre;
-      arm -= arm.dot(axis) * axis;
-      const bool between = s.generator[0].cross(arm).dot(arm.cross(s.generator[1])) > 0 && arm.dot(s.generator[0] + s.generator[1]) > 0;
-      if (!between) continue;
+      if (!within(s, arm_to(model.face(s.face), centre))) continue;
       std::swap(region.data[s.label], region.data[label[r]]);
       label[r] = s.label;
     }

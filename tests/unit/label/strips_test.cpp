@@ -52,12 +52,12 @@ TEST(Strips, AreGivenToTheirSideUnlessTheyMayNotHaveIt) {
   ASSERT_EQ(strips.size(), 2u);
   // One region in the first strip, one opposite of it.
   const Vec3 inside = 6 * (strips[0].generator[0] + strips[0].generator[1]).normalized();
-  TetMesh mesh;
+  Room room{strips, {}};
   RegionGraph graph;
   for (const Vec3& at : {inside, Vec3(-inside)}) {
-    const int n = static_cast<int>(mesh.points.size());
-    for (int k = 0; k < 3; ++k) mesh.points.push_back(at);
-    mesh.triangles.push_back({n, n + 1, n + 2});
+    const int n = static_cast<int>(room.mesh.points.size());
+    for (int k = 0; k < 3; ++k) room.mesh.points.push_back(at);
+    room.mesh.triangles.push_back({n, n + 1, n + 2});
     Region region;
     region.face = bar;
     region.triangles = {n / 3};
@@ -65,15 +65,38 @@ TEST(Strips, AreGivenToTheirSideUnlessTheyMayNotHaveIt) {
     graph.regions.push_back(region);
   }
   std::vector<int> label{2, 3};
-  give_room(model, mesh, strips, graph, label);
+  give_strips(model, room.mesh, room, graph, label);
   EXPECT_EQ(label, (std::vector<int>{0, 3}));
   EXPECT_EQ(graph.regions[0].data, (std::array<double, 6>{5, 8, 7, 6, 9, 9}));  // no dearer than what it had
   EXPECT_EQ(graph.regions[1].data, (std::array<double, 6>{7, 8, 5, 6, 9, 9}));
 
   graph.regions[0].data[0] = kForbidden;
   label = {2, 3};
-  give_room(model, mesh, strips, graph, label);
+  give_strips(model, room.mesh, room, graph, label);
   EXPECT_EQ(label, (std::vector<int>{2, 3}));
+}
+
+TEST(Strips, LabelsChangeOnTheLineBesideThem) {
+  const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
+  const int bar = bar_of(model);
+  Room room{find_strips(model, Mat3::Identity(), bar, 1), {}};
+  ASSERT_EQ(room.strips.size(), 2u);
+  const Strip& s = room.strips[0];
+  const int side = s.generator[0][1] > 0 ? 2 : 3;
+  const Vec3 axis = s.generator[0].cross(s.generator[1]).normalized();
+  // Degrees beyond the line: just on both sides of it, and far off.
+  for (const double degrees : {1.0, -1.0, 180.0}) {
+    const int n = static_cast<int>(room.mesh.points.size());
+    for (int k = 0; k < 3; ++k) room.mesh.points.push_back(Eigen::AngleAxisd(degrees * M_PI / 180, axis) * (6 * s.generator[0]));
+    room.mesh.triangles.push_back({n, n + 1, n + 2});
+    room.mesh.triangle_face.push_back(bar);
+  }
+  std::vector<int> label{0, side, side};
+  settle_lines(model, room.mesh, Mat3::Identity(), room, label);
+  EXPECT_EQ(label, (std::vector<int>{side, 0, side}));
+  label = {5, 5, 5};  // not for the sake of the line
+  settle_lines(model, room.mesh, Mat3::Identity(), room, label);
+  EXPECT_EQ(label, (std::vector<int>{5, 5, 5}));
 }
 
 }  // namespace

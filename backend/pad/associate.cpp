@@ -26,6 +26,8 @@ constexpr double kReach = 3;
 constexpr double kSpokePrice = 0.5;
 // Blame for a path all of which runs in other charts than its CAD edge, in cell sizes of deviation.
 constexpr double kAstrayBlame = 10;
+// Cell sizes that a chart too many at the node of a vertex costs, for each round in which an edge of the vertex found no path.
+constexpr double kSurplusPrice = 0.2;
 // Rounds of routing, and those without success after which it ends.
 constexpr int kRounds = 24;
 constexpr int kPatience = 8;
@@ -272,6 +274,11 @@ class Associator {
     for (int n = 0; n < static_cast<int>(tets_.points.size()); ++n) {
       if (tets_.point_cad[n].dim == 0) tet_node[tets_.point_cad[n].id] = n;
     }
+    // An edge without a path may have begun at a node of a chart boundary, which other edges have to pass, though its vertex is off it.
+    std::vector<int> failures(model_.vertex_count() + 1, 0);
+    for (int e : real_) {
+      for (int v : model_.edge(e).vertices) failures[v] = std::max(failures[v], failures_[e]);
+    }
     struct Candidate {
       double cost;
       int vertex, node;
@@ -285,7 +292,8 @@ class Associator {
         if (d > kReach) continue;
         // A vertex on a chart boundary or corner belongs on one of the mesh.
         const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
-        candidates.push_back({d + 2.0 * static_cast<double>(missing) - 0.01 * static_cast<double>(charts.size()), v, n});
+        const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
+        candidates.push_back({d + 2.0 * static_cast<double>(missing) + kSurplusPrice * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
       }
     }
     std::sort(candidates.begin(), candidates.end(),

@@ -2,6 +2,7 @@
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -114,6 +115,18 @@ std::string filleted_box(double size, double radius) {
   TopExp::MapShapes(cube, TopAbs_EDGE, edges);
   for (int i = 1; i <= edges.Extent(); ++i) fillet.Add(radius, TopoDS::Edge(edges(i)));
   return text(TopExp_Explorer(fillet.Shape(), TopAbs_SOLID).Current());
+}
+
+std::string box_with_square(double x, double y, double z, double from, double to) {
+  BRepBuilderAPI_MakePolygon square(gp_Pnt(from, from, z), gp_Pnt(to, from, z), gp_Pnt(to, to, z), gp_Pnt(from, to, z), Standard_True);
+  TopTools_ListOfShape boxes, tools;
+  boxes.Append(block({0, 0, 0}, {x, y, z}));
+  tools.Append(BRepBuilderAPI_MakeFace(square.Wire()).Shape());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(boxes);
+  splitter.SetTools(tools);
+  splitter.Build();
+  return text(TopExp_Explorer(splitter.Shape(), TopAbs_SOLID).Current());
 }
 
 std::string chamfered_box(double size, double leg) {

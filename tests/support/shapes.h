@@ -30,6 +30,7 @@ std::string half_cylinder(double radius, double height);            ///< cut by 
 std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it; the bore's seam ends in the middle of the rib's upper end
 
 std::string oblique_bore();   ///< box of 20 x 14 x 12, a bore 20 degrees off Z comes out of its side x = 20 and leaves a wedge there
+std::string box_with_square(double x, double y, double z, double from, double to);  ///< a square from (from, from) to (to, to) drawn on its top
 std::string drilled_block();  ///< 20 x 20 x 16, a hole of radius 1.2 with a drill's tip from above; cut in two at y = 10 and put together: its faces are halves
 
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
 #include "core/error.h"
@@ -17,6 +18,7 @@ namespace polycube {
 namespace {
 
 constexpr int kFew = 4;            // inverted cells worth another start: more of them have a cause that none mends
+constexpr double kDoubt = 0.01;    // of a prospect: the candidate that its maker puts first stays there for less
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
 constexpr double kPoor = 0.3;      // scaled Jacobian up to which a cell may be inverted inside though its corners are not
@@ -69,7 +71,8 @@ bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vec
   const double value = corner_scaled_jacobian(points, hex, worst);
   const auto& next = kCornerNeighbours[worst];
   const auto on_edge = [&](int k) {
-    return std::binary_search(on_edges.begin(), on_edges.end(), Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
+    return std::binary_search(on_edges.begin(), on_edges.end(),
+                              Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
   };
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
@@ -79,6 +82,18 @@ bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vec
   }
   return false;
 }
+
+// How far untangling has come.
+struct Untangling {
+  Energy energy{};
+  double deepest = -std::numeric_limits<double>::infinity();  // worst determinant
+  int round = 0;
+  int idle = 0;  // rounds without progress
+  bool done = false;
+};
+
+// Inverted cells, then the lack of quality.
+using Prospect = std::pair<int, double>;
 
 class Fitting {
  public:
@@ -97,12 +112,40 @@ class Fitting {
     whole_.nodes = movable(whole_.hexes);
   }
 
-  FitReport run() {
+  // The first rounds, after which it is to be seen what will come of it.
+  void begin() {
+    constexpr int kRounds = 8;
     place_on_cad(model_, mesh_, association_, chains_, entities_, monitor_);
     best_ = mesh_.points;
     score_ = rate();
     monitor_.progress("fit", 0.15);
-    untangle(whole_, 20);
+    untangle(whole_, 20, start_, kRounds);
+  }
+
+  // How it would go on: few inverted cells mended, one descent towards right angles. Less is more promising. Leaves things as they are.
+  Prospect prospect() {
+    constexpr int kRounds = 8;
+    constexpr double kWorst = 0.3;
+    const std::vector<Vec3> points = mesh_.points, best = best_;
+    const Score score = score_;
+    restore();
+    if (score_.inverted > 0 && score_.inverted <= kFew) {
+      Untangling mending;
+      untangle(around(0, 2), 50, mending, kRounds);
+      restore();
+    }
+    if (score_.inverted == 0) square_up(whole_, 2, 20);
+    // The worst cell will be worked on, the mean hardly changes any more.
+    const Prospect result{score_.inverted, -score_.mean - kWorst * score_.worst};
+    best_ = best;
+    score_ = score;
+    mesh_.points = points;
+    entities_.project(mesh_.points);
+    return result;
+  }
+
+  FitReport finish() {
+    untangle(whole_, 20, start_, options_.max_rounds);
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
       untangle(around(0, layers), 50);
@@ -209,7 +252,8 @@ class Fitting {
     return region;
   }
 
-  // Takes the nodes of patches and the inside to the mean of their neighbours, those of patches to the mean of their neighbours on the boundary.
+  // Takes the nodes of patches and the inside to the mean of their neighbours, those of patches to the mean of their neighbours on the
+  // boundary.
   void smooth(const Region& region) {
     constexpr int kRounds = 10;
     std::vector<int> nodes = region.nodes;
@@ -238,10 +282,15 @@ class Fitting {
   // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).
   // Stops where neither the worst determinant nor the mesh has become better for some rounds.
   void untangle(const Region& region, int iterations) {
+    Untangling from_nothing;
+    untangle(region, iterations, from_nothing, options_.max_rounds);
+  }
+
+  // Goes on from `state` up to so many rounds in all.
+  void untangle(const Region& region, int iterations, Untangling& state, int max_rounds) {
     constexpr int kPatience = 6;
-    Energy energy;
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (int round = 0, idle = 0; round < options_.max_rounds && idle < kPatience; ++round, ++idle) {
+    auto& [energy, deepest, round, idle, done] = state;
+    for (; !done && round < max_rounds && idle < kPatience; ++round, ++idle) {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
       const double least = std::min(descent_.min_determinant(targets, region), 0.0);
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
@@ -254,7 +303,8 @@ class Fitting {
       if (improved || reached > deepest + 0.01 * std::abs(deepest)) idle = 0;
       deepest = std::max(deepest, reached);
       const double gain = 1 - result.energy / result.start_energy;
-      if (reached > 0 && gain < 5e-3) break;
+      done = reached > 0 && gain < 5e-3;
+      if (done) break;
       const double rate_of_fall = std::max(gain, 0.1);
       const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
       const double wanted = (1 - rate_of_fall) * chi;
@@ -262,7 +312,8 @@ class Fitting {
     }
   }
 
-  // Corners all positive do not make a cell positive inside: such cells are untangled at their integration points, and watched from then on.
+  // Corners all positive do not make a cell positive inside: such cells are untangled at their integration points, and watched from then
+  // on.
   void fill_hollow() {
     for (int layers = 2; score_.hollow > 0 && layers <= 6; layers += 2) {
       std::vector<int> cells;
@@ -277,14 +328,17 @@ class Fitting {
 
   // The same region, with an eye on the inside of doubtful cells.
   Region watching(Region region) const {
-    for (int h : region.hexes) region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
+    for (int h : region.hexes)
+      region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
     return region;
   }
 
-  // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as before.
+  // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as
+  // before.
   bool square_up(const Region& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region, chains_.turns(mesh_.points, entities_), iterations);
+    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region,
+                                              chains_.turns(mesh_.points, entities_), iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points, &region.nodes);
     monitor_.check();
@@ -312,8 +366,8 @@ class Fitting {
     }
   }
 
-  // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are. The floor rises with
-  // them, and where it did not hold them.
+  // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are. The floor rises
+  // with them, and where it did not hold them.
   void polish() {
     constexpr double kHeld = 0.98, kHigher = 1.1, kHighest = 1.5;
     held_ = kHeld * score_.worst;
@@ -366,19 +420,51 @@ class Fitting {
   Region whole_;
   std::vector<Vec3> best_;
   Score score_;
-  bool watching_ = false;  // cells were inverted inside, and are no more
+  Untangling start_;                                       // of the whole mesh
+  bool watching_ = false;                                  // cells were inverted inside, and are no more
   double held_ = std::numeric_limits<double>::infinity();  // while polishing: a worst cell above this is no gain
 };
 
 }  // namespace
 
 FitReport fit(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor) {
-  if (association.point_cad.size() != mesh.points.size()) throw StageFailed("fit", "the association has not one entry a node");
-  if (mesh.hexes.empty()) throw StageFailed("fit", "the mesh has no cells");
-  monitor.progress("fit", 0);
-  const FitReport report = Fitting(model, mesh, association, options, monitor).run();
+  const auto good = [](std::size_t, const FitReport&) { return true; };
+  return fit_best(model, {{mesh, association}}, options, 1, good, monitor).report;
+}
+
+FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, int most,
+                   const std::function<bool(std::size_t, const FitReport&)>& good, const Monitor& monitor) {
+  std::vector<std::unique_ptr<Fitting>> fittings;
+  for (const auto& [mesh, association] : candidates) {
+    if (association.point_cad.size() != mesh.points.size()) throw StageFailed("fit", "the association has not one entry a node");
+    if (mesh.hexes.empty()) throw StageFailed("fit", "the mesh has no cells");
+    monitor.progress("fit", 0);
+    fittings.push_back(std::make_unique<Fitting>(model, mesh, association, options, monitor));
+    fittings.back()->begin();
+  }
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Prospect> prospects;
+  for (std::size_t i = 0; i < fittings.size() && fittings.size() > 1; ++i) {
+    prospects.push_back(fittings[i]->prospect());
+    prospects[i].second += kDoubt * static_cast<double>(std::min<std::size_t>(i, 1));
+  }
+  if (fittings.size() > 1) {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return prospects[a] < prospects[b]; });
+  }
+  const auto rank = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
+  FitChoice choice;
+  for (std::size_t i : order) {
+    if (choice.fitted == most) break;
+    const FitReport report = fittings[i]->finish();
+    if (choice.fitted++ == 0 || rank(report) > rank(choice.report)) {
+      choice.index = i;
+      choice.report = report;
+    }
+    if (good(choice.index, choice.report)) break;
+  }
   monitor.progress("fit", 1);
-  return report;
+  return choice;
 }
 
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association) {

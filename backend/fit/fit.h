@@ -1,6 +1,8 @@
 // Geometry of the hexahedral mesh on the exact CAD: untangle, then raise the worst cells.
 #pragma once
 
+#include <functional>
+
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
@@ -25,8 +27,25 @@ struct FitReport {
 /// the others are free. Connectivity stays. On return every boundary node is on its entity to 1e-9 of the model's diagonal.
 FitReport fit(const CadModel& model, HexMesh& mesh, const Association& association, const FitOptions& options, const Monitor& monitor);
 
-/// The smallest scaled Jacobian but for cells that a narrow angle between two CAD edges holds where they are: no fit and no other grid makes those
-/// better.
+struct FitCandidate {
+  HexMesh& mesh;
+  const Association& association;
+};
+
+struct FitChoice {
+  std::size_t index = 0;  ///< of the best of the fitted candidates
+  FitReport report;       ///< of that one
+  int fitted = 0;         ///< candidates that were fitted to the end
+};
+
+/// Meshes of the same part, of which one is wanted, the presumably best first: all go through the first rounds of untangling and a look at what
+/// comes after it; then they are fitted, the most promising first, until `good` holds for the best so far or `most` are done. Each mesh comes
+/// out as `fit` would leave it, or is not to be used.
+FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, int most,
+                   const std::function<bool(std::size_t, const FitReport&)>& good, const Monitor& monitor);
+
+/// The smallest scaled Jacobian but for cells that a narrow angle between two CAD edges holds where they are: no fit and no other grid
+/// makes those better.
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association);
 
 }  // namespace polycube

@@ -421,21 +421,14 @@ class Run {
     }
     FitOptions fit_options;
     if (options_.threads > 0) fit_options.threads = options_.threads;
-    // The first choice usually is the best; the others are fitted only where it falls short.
-    std::size_t chosen = 0;
-    for (std::size_t i = 0; i < choices.size(); ++i) {
-      if (fits_left_-- <= 0) {
-        if (i > 0) break;
-        throw StageFailed("fit", "cells stay inverted after " + std::to_string(kMaxFits) + " attempts");
-      }
-      const FitReport next = clock_.stage("fit", [&] { return fit(model_, choices[i].mesh, choices[i].association, fit_options, monitor_); });
-      const auto rank_of = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
-      if (i == 0 || rank_of(next) > rank_of(fitted)) {
-        fitted = next;
-        chosen = i;
-      }
-      if (fitted.inverted == 0 && good_cells(fitted.min_scaled_jacobian, choices[chosen])) break;
-    }
+    if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(kMaxFits) + " attempts");
+    std::vector<FitCandidate> candidates;
+    for (PaddedMesh& c : choices) candidates.push_back({c.mesh, c.association});
+    const auto good = [&](std::size_t i, const FitReport& r) { return r.inverted == 0 && good_cells(r.min_scaled_jacobian, choices[i]); };
+    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options, fits_left_, good, monitor_); });
+    const std::size_t chosen = best.index;
+    fitted = best.report;
+    fits_left_ -= best.fitted;
     report.padded_hexes = pad_reports[chosen].added_hexes;
     monitor_.log("pad: " + std::to_string(pad_reports[chosen].added_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) +
                  " rings, choice " + std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));

@@ -117,6 +117,32 @@ TEST(Fit, ReportsWhatItCannotMend) {
   EXPECT_EQ(summarise(grid.mesh).inverted, bare.inverted);
 }
 
+// A cylinder without a layer and with one, in either order: the layered one is fitted first, to the same places as alone, and suffices.
+TEST(Fit, BeginsWithTheMostPromisingOfSeveral) {
+  const Grid grid = cylinder_grid(8);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  PaddedMesh alone = padded(grid);
+  const FitReport expected = fit(model, alone.mesh, alone.association, {}, Monitor{});
+  for (const bool layered_first : {true, false}) {
+    PaddedMesh bare{grid.mesh, grid.association}, layered = padded(grid);
+    const FitCandidate with{layered.mesh, layered.association}, without{bare.mesh, bare.association};
+    const std::vector<FitCandidate> candidates = layered_first ? std::vector{with, without} : std::vector{without, with};
+    const auto good = [&](std::size_t, const FitReport& r) { return r.min_scaled_jacobian >= expected.min_scaled_jacobian; };
+    const FitChoice choice = fit_best(model, candidates, {}, 2, good, Monitor{});
+    EXPECT_EQ(choice.index, layered_first ? 0u : 1u);
+    EXPECT_EQ(choice.fitted, 1);
+    EXPECT_EQ(choice.report.min_scaled_jacobian, expected.min_scaled_jacobian);
+    EXPECT_EQ(layered.mesh.points, alone.mesh.points);
+  }
+  // Where nothing is good enough all are fitted, and the best counts.
+  PaddedMesh bare{grid.mesh, grid.association}, layered = padded(grid);
+  const FitChoice choice = fit_best(
+      model, {{bare.mesh, bare.association}, {layered.mesh, layered.association}}, {}, 2,
+      [](std::size_t, const FitReport&) { return false; }, Monitor{});
+  EXPECT_EQ(choice.index, 1u);
+  EXPECT_EQ(choice.fitted, 2);
+}
+
 TEST(Fit, StopsWhenCancelled) {
   Grid grid = box_grid(4);
   Monitor monitor;
@@ -128,7 +154,8 @@ TEST(Fit, StopsWhenCancelled) {
 TEST(Fit, CellsInNarrowCornersOfTheCadAreHeld) {
   HexMesh mesh{{}, {{0, 1, 2, 3, 4, 5, 6, 7}}};
   for (double z : {0, 1}) {
-    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)}) mesh.points.emplace_back(x, y, z);
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)})
+      mesh.points.emplace_back(x, y, z);
   }
   Association association;
   for (const auto& [c, d] : kHexEdges) association.segments.push_back({c, d});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
-#include <utility>
+#include <tuple>
 
 namespace polycube {
 namespace {
@@ -59,6 +59,7 @@ std::vector<LabelVariant> variants(const Choices& choices) {
   for (const double strictness : {LabelOptions{}.strictness, kStrict}) {
     for (const bool narrow : {false, true}) add({.strictness = strictness, .narrow_regions = narrow});
   }
+  list.push_back({.room = false});
   for (int axis = 0; axis < 3; ++axis) {
     if (choices.chamfers[axis]) add({.chamfer_axis = axis});
   }
@@ -81,6 +82,7 @@ std::string describe(const LabelVariant& v) {
   std::string text = "faces bend up to " + std::to_string(std::lround(v.widest_bend * 180 / std::numbers::pi)) + " degrees, strictness " + std::to_string(std::lround(v.strictness));
   if (!v.gradual) text += " at once";
   if (v.narrow_regions) text += ", narrow regions";
+  if (!v.room) text += ", no room beside edges";
   if (v.chamfer_axis >= 0) text += std::string(", chamfers along ") + "xyz"[v.chamfer_axis];
   if (v.compactness > 1) text += ", compact";
   if (v.compactness < 1) text += ", loose";
@@ -91,7 +93,10 @@ std::string describe(const LabelVariant& v) {
 // What is wrong before the labels are ranked by how near they are to the normals.
 double badness(const Labelled& l) { return l.faults + kLostFeature * l.lost_features; }
 
-bool better(const Labelled& a, const Labelled& b) { return std::pair(badness(a), a.report.energy) < std::pair(badness(b), b.report.energy); }
+bool better(const Labelled& a, const Labelled& b) {
+  const auto rank = [](const Labelled& l) { return std::tuple(l.faults > 0, badness(l), l.report.energy); };
+  return rank(a) < rank(b);
+}
 
 bool same_labels(const Labelled& a, const Labelled& b) { return a.variant.frame == b.variant.frame && a.labelling.label == b.labelling.label; }
 
@@ -116,6 +121,7 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   options.frame_given = true;
   options.frame = frames_[variant.frame];
   options.compactness *= variant.compactness;
+  options.room = variant.room;
   options.chamfer_axis = variant.chamfer_axis;
   options.gradual = variant.gradual;
   options.strictness = variant.strictness;

@@ -13,6 +13,7 @@ namespace polycube {
 struct LabelVariant {
   int frame = 0;            ///< one of those that the part offers
   double compactness = 1;   ///< times that of the options
+  bool room = LabelOptions{}.room;
   int chamfer_axis = LabelOptions{}.chamfer_axis;
   bool gradual = LabelOptions{}.gradual;
   double strictness = LabelOptions{}.strictness;

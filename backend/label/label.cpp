@@ -424,7 +424,7 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   const Mat3 frame = options.frame_given ? options.frame : find_frame(model);
   const std::vector<FaceCut> usual(static_cast<std::size_t>(model.face_count()) + 1);
   std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, nullptr, monitor);
-  room = make_room(model, mesh, frame, may_change(best->setup), monitor);
+  if (options.room) room = make_room(model, mesh, frame, may_change(best->setup), monitor);
   if (!room.strips.empty()) {
     std::unique_ptr<Plan> roomy = make_plan(model, room.mesh, options, nullptr, frame, usual, &room, monitor);
     if (roomy->left.score == 0) (best->left.score > 0 || cost(*roomy) < cost(*best) ? best : spare) = std::move(roomy);

@@ -30,6 +30,8 @@ namespace {
 
 // Ways to label the part that are tried on one grid.
 constexpr std::size_t kLabellings = 4;
+// Those that are tried on other grids before the rest is tried on one.
+constexpr std::size_t kBestLabellings = 2;
 // Good enough to stop looking for a better candidate.
 constexpr double kGoodScaledJacobian = 0.2;
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
@@ -69,16 +71,17 @@ struct Candidate {
 std::vector<Candidate> candidates(const MeshOptions& options, std::vector<LabelVariant> labels) {
   labels.resize(std::min(labels.size(), kLabellings));
   std::vector<Candidate> list;
-  const auto add = [&](const std::string& what, std::size_t labellings, double refine, double tet_size) {
-    for (std::size_t i = 0; i < std::min(labellings, labels.size()); ++i) {
+  const auto add = [&](const std::string& what, std::size_t first, std::size_t end, double refine, double tet_size) {
+    for (std::size_t i = first; i < std::min(end, labels.size()); ++i) {
       list.push_back({"all CAD edges" + what + (i > 0 ? ", labels " + std::to_string(i + 1) : ""), {.labels = labels[i], .tet_size = tet_size}, refine});
     }
   };
-  add("", labels.size(), 1, 1);
+  add("", 0, kBestLabellings, 1, 1);
   // Whether a thin strip gets one cell or two can decide over the whole mesh.
-  if (!options.coarsest) add(", finer", 2, 1.25, 1);
+  if (!options.coarsest) add(", finer", 0, kBestLabellings, 1.25, 1);
+  add("", kBestLabellings, kLabellings, 1, 1);
   // Another tet mesh gives a slightly other map, and with it other strips.
-  add(", other tets", 2, 1, 0.8);
+  add(", other tets", 0, kBestLabellings, 1, 0.8);
   return list;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 // Labellings whose maps are compared.
 constexpr std::size_t kMapped = 4;
-// Flipped tets that the blocks bear easily.
-constexpr int kFewFlips = 5;
+// Flipped tets that the blocks bear.
+constexpr int kFewFlips = 50;
 
 // A few flips more or less say nothing, four times as many do.
 int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kFewFlips) / 2); }

@@ -53,7 +53,7 @@ TEST(LabelChoice, OffersWhatTheShapeGivesAChoiceOf) {
   EXPECT_EQ(count(bevelled.choice(), chamfers), 2);
   EXPECT_EQ(count(bevelled.choice(), framed), 1);
   EXPECT_GT(count(rounded.choice(), bends), 0);
-  EXPECT_EQ(count(rounded.choice(), bends) * 2, static_cast<std::ptrdiff_t>(rounded.choice().order().size()));  // twins, one frame
+  EXPECT_EQ(count(rounded.choice(), bends) * 2 + 1, static_cast<std::ptrdiff_t>(rounded.choice().order().size()));  // twins, but the one without room
   EXPECT_EQ(count(rounded.choice(), chamfers), 0);
 }
 

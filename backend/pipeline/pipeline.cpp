@@ -169,6 +169,11 @@ class Run {
       if (best || fits_left_ <= 0) break;
       attempt_with(u.candidate.name + " but where cells stay inverted", [&] { return relax(u); });
     }
+    // Not one by one any more, but all that is near.
+    if (!best && !unfinished_.empty()) {
+      fits_left_ = kLastFits;
+      attempt_with(unfinished_.front().candidate.name + " but round cells that stay inverted", [&] { return relax_around(unfinished_.front()); });
+    }
     for (const Candidate& c : last_candidates()) {
       if (best) break;
       unfinished_.clear();
@@ -314,6 +319,36 @@ class Run {
       if (u.fitted.inverted == 0) return finished(std::move(u));
     }
     throw inverted(u);
+  }
+
+  // The same with all edges within more and more cells of those that are inverted.
+  MeshResult relax_around(Unfinished& u) {
+    for (int rings = 0; rings < kLastFits && u.fitted.inverted > 0; ++rings) {
+      give_up_around(u.padded, rings, u.options);
+      pad_and_fit(u, associated(u));
+    }
+    if (u.fitted.inverted > 0) throw inverted(u);
+    return finished(std::move(u));
+  }
+
+  void give_up_around(const PaddedMesh& padded, int rings, AssociateOptions& options) const {
+    std::vector<char> near(padded.mesh.points.size(), 0);
+    const auto reach = [&](const auto& which) {
+      std::vector<int> nodes;
+      for (const Hex& h : padded.mesh.hexes) {
+        if (which(h)) nodes.insert(nodes.end(), h.begin(), h.end());
+      }
+      for (int n : nodes) near[n] = 1;
+    };
+    reach([&](const Hex& h) { return !(scaled_jacobian(padded.mesh.points, h) > 0); });
+    for (int ring = 0; ring < rings; ++ring) reach([&](const Hex& h) { return std::any_of(h.begin(), h.end(), [&](int n) { return near[n] != 0; }); });
+    for (std::size_t i = 0; i < padded.association.segments.size(); ++i) {
+      const int edge = padded.association.segment_edge[i];
+      const auto& [a, b] = padded.association.segments[i];
+      if ((!near[a] && !near[b]) || options.edge_chains[edge].empty()) continue;
+      options.edge_chains[edge].clear();
+      monitor_.log("pad: " + name({1, edge}) + " is given up");
+    }
   }
 
   static StageFailed inverted(const Unfinished& u) {

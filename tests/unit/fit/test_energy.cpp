@@ -67,15 +67,21 @@ TEST(Descent, TurnsSpreadTheNodesOfACurvedEdge) {
   EXPECT_GT(gap(true), 0.22);
 }
 
-TEST(Descent, AFloorCostsAsItsFormulaSays) {
+// 3 x 3 x 3 cells, ready for a descent.
+struct Box {
   testing::Grid grid = testing::box_grid(3);
-  const CadModel model = CadModel::from_brep(grid.brep);
-  const HexGraph graph = build_hex_graph(grid.mesh);
-  Entities entities(model, grid.association, 1);
-  entities.project(grid.mesh.points);
-  const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(1.0 / 3));
+  CadModel model = CadModel::from_brep(grid.brep);
+  HexGraph graph = build_hex_graph(grid.mesh);
+  Entities entities{model, grid.association, 1};
+  std::vector<Vec3> targets = std::vector<Vec3>(grid.mesh.hexes.size(), Vec3::Constant(1.0 / 3));
+  Monitor monitor;
+  Box() { entities.project(grid.mesh.points); }
+};
+
+TEST(Descent, AFloorCostsAsItsFormulaSays) {
+  Box box;
+  auto& [grid, model, graph, entities, targets, monitor] = box;
   const Region whole{{0}, {}};
-  const Monitor monitor;
   const auto energy = [&](double floor) {
     return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, 0).energy;
   };
@@ -86,12 +92,8 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
 
 // All corners of this cell are good (scaled Jacobian 0.4), yet it is inverted inside.
 TEST(Descent, WatchedCellsAreLookedAtInside) {
-  testing::Grid grid = testing::box_grid(3);
-  const CadModel model = CadModel::from_brep(grid.brep);
-  const HexGraph graph = build_hex_graph(grid.mesh);
-  Entities entities(model, grid.association, 1);
-  entities.project(grid.mesh.points);
-  const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(1.0 / 3));
+  Box box;
+  auto& [grid, model, graph, entities, targets, monitor] = box;
   const std::array<Vec3, 8> hollow{Vec3(0.74, 0.09, 0.29), Vec3(1.28, -0.21, 0.67), Vec3(1.06, 1.6, 0.34),  Vec3(0.05, 1.5, 0.61),
                                    Vec3(0.57, -0.03, 0.77), Vec3(0.63, -0.01, 0.78), Vec3(1.11, 1.61, 0.37), Vec3(1.23, 1.12, 2.01)};
   Region region;
@@ -106,7 +108,6 @@ TEST(Descent, WatchedCellsAreLookedAtInside) {
   std::sort(region.nodes.begin(), region.nodes.end());
   Region watched = region;
   watched.watched = {1};
-  const Monitor monitor;
   Descent descent(grid.mesh, graph, entities, 1, monitor);
   EXPECT_GT(scaled_jacobian(grid.mesh.points, grid.mesh.hexes[region.hexes[0]]), 0.4);
   EXPECT_GT(descent.min_determinant(targets, region), 0);

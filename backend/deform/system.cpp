@@ -5,8 +5,8 @@
 namespace polycube {
 namespace {
 
-// Of the right side: what a solution may leave. The rotations that the right side is made of are further off than this until the last round.
-constexpr double kResidual = 1e-7;
+// Of the right side: what a solution may leave. A box comes out as it is to 1e-9.
+constexpr double kResidual = 1e-10;
 constexpr int kMostSteps = 200;
 
 }  // namespace

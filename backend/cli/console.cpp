@@ -8,26 +8,27 @@
 namespace polycube {
 namespace {
 
-constexpr int kCancelledStatus = 3;
-volatile std::sig_atomic_t g_signals = 0;
+volatile std::sig_atomic_t g_signalled = 0;
 
-extern "C" void on_signal(int) {
-  g_signals = g_signals + 1;
-  if (g_signals > 1) _exit(kCancelledStatus);
-}
+extern "C" void on_signal(int) { g_signalled = 1; }
 
 }  // namespace
 
-Console::Console(Monitor& monitor, bool verbose)
-    : terminal_(isatty(STDERR_FILENO) != 0), verbose_(verbose), start_(Monitor::Clock::now()), last_(start_) {
+Console::Console(Monitor& monitor, StageNote& note, bool verbose)
+    : note_(note), terminal_(isatty(STDERR_FILENO) != 0), verbose_(verbose), start_(Monitor::Clock::now()), last_(start_) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  monitor.cancel_requested = [] { return g_signals > 0; };
-  if (terminal_) monitor.on_progress = [this](const std::string& stage, double fraction) { show(stage, fraction); };
+  monitor.cancel_requested = [] { return g_signalled != 0; };
+  monitor.on_progress = [this](const std::string& stage, double fraction) { progress(stage, fraction); };
   if (verbose) monitor.on_log = [this](const std::string& line) { log(line); };
 }
 
 Console::~Console() { wipe(); }
+
+void Console::progress(const std::string& stage, double fraction) {
+  note_.set(stage);
+  if (terminal_) show(stage, fraction);
+}
 
 void Console::show(const std::string& stage, double fraction) {
   const auto now = Monitor::Clock::now();

@@ -19,8 +19,6 @@
 namespace polycube {
 namespace {
 
-enum Status { kDone = 0, kBadInput = 1, kFailed = 2, kStopped = 3 };
-
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -41,7 +39,11 @@ class OptionArguments {
         argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
         const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "faces";
         if (list) argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-        argument.parsed->type_name(type == "labels" ? "Face3=+X" : type == "divisions" ? "Edge4=6" : type == "sizes" ? "Face3=mm" : type == "faces" ? "Face3" : type_name(option));
+        argument.parsed->type_name(type == "labels"      ? "Face3=+X"
+                                   : type == "divisions" ? "Edge4=6"
+                                   : type == "sizes"     ? "Face3=mm"
+                                   : type == "faces"     ? "Face3"
+                                                         : type_name(option));
       }
       argument.parsed->group(group);
     }
@@ -86,18 +88,22 @@ struct PartCommand {
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
   }
 
-  /// The options, checked before any work, with their time limit in force from `start`.
-  MeshOptions begin(Monitor& monitor, Monitor::Clock::time_point start) const {
-    const MeshOptions options = arguments.options();
-    if (options.time_limit > 0)
-      monitor.set_deadline(start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
-    if (!report.empty()) check_writable(report);
-    return options;
+  /// What can be said before any work: bad options and targets throw InvalidInput. `targets`: the files asked for.
+  Supervision check(Monitor::Clock::time_point start, std::vector<std::string> targets) const {
+    if (!report.empty()) {
+      check_writable(report);
+      targets.push_back(report);
+    }
+    Supervision result{.outputs = std::move(targets)};
+    if (const double limit = arguments.options().time_limit; limit > 0)
+      result.deadline = start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(limit));
+    return result;
   }
 
-  CadModel read(const MeshOptions& options) const {
+  CadModel read(const MeshOptions& options, const Monitor& monitor) const {
+    monitor.progress("cad", 0);
     CadModel model = read_part(part, object);
-    check(options, model.diagonal(), model.face_count(), model.edge_count());
+    polycube::check(options, model.diagonal(), model.face_count(), model.edge_count());
     return model;
   }
 
@@ -112,11 +118,15 @@ struct MeshCommand : PartCommand {
     command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
   }
 
-  void run(Monitor& monitor, Monitor::Clock::time_point start) const {
-    const MeshOptions options = begin(monitor, start);
+  Supervision check(Monitor::Clock::time_point start) const {
     check_output(output);
+    return PartCommand::check(start, {output});
+  }
+
+  void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
+    const MeshOptions options = arguments.options();
     const auto read_start = Monitor::Clock::now();
-    const CadModel model = read(options);
+    const CadModel model = read(options, monitor);
     const double read_seconds = seconds_since(read_start);
     MeshResult result = mesh(model, options, monitor);
     result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
@@ -152,13 +162,17 @@ struct LabelCommand : PartCommand {
     command.add_option("--pixels", picture.size, "Width of the picture")->capture_default_str()->check(CLI::Range(100, 10000));
   }
 
-  void run(Monitor& monitor, Monitor::Clock::time_point start) const {
-    const MeshOptions options = begin(monitor, start);
+  Supervision check(Monitor::Clock::time_point start) const {
     for (const std::string& output : outputs) {
       if (!output.ends_with(".vtu") && !output.ends_with(".png")) throw InvalidInput(output + ": the suffix must be .vtu or .png");
       check_writable(output);
     }
-    const CadModel model = read(options);
+    return PartCommand::check(start, outputs);
+  }
+
+  void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
+    const MeshOptions options = arguments.options();
+    const CadModel model = read(options, monitor);
     const LabelledPart labelled = label_part(model, options, monitor);
     const Inspection inspection = inspect(labelled);
     for (const std::string& output : outputs) {
@@ -169,9 +183,11 @@ struct LabelCommand : PartCommand {
     if (labelled.failure) std::cerr << "polycube: warning: no map, stage " << labelled.failure->stage() << ": " << one_line(labelled.failure->what()) << "\n";
     const Violations& v = inspection.violations;
     const EdgeTable edges = edge_table(labelled);
-    std::printf("%s: %s, %d turning points, %d charts, %zu corners, CAD edges %d on boundaries %d with feature charts %d not captured, %d of %zu tets flipped, %.1f s\n",
-                part.c_str(), v.valid() ? "valid" : "not valid", v.turning_points, inspection.charts, inspection.corners.size(), edges.boundary, edges.feature,
-                edges.lost, labelled.flipped, labelled.tets.tets.size(), seconds_since(start));
+    std::printf(
+        "%s: %s, %d turning points, %d charts, %zu corners, CAD edges %d on boundaries %d with feature charts %d not captured, %d of %zu "
+        "tets flipped, %.1f s\n",
+        part.c_str(), v.valid() ? "valid" : "not valid", v.turning_points, inspection.charts, inspection.corners.size(), edges.boundary, edges.feature,
+        edges.lost, labelled.flipped, labelled.tets.tets.size(), seconds_since(start));
   }
 
   std::vector<std::string> outputs;
@@ -195,10 +211,18 @@ struct HexCommand {
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
   }
 
-  void run(Monitor& monitor, Monitor::Clock::time_point start) {
+  Supervision check(Monitor::Clock::time_point) const {
     if (!output.ends_with(".mesh") && !output.ends_with(".vtu")) throw InvalidInput(output + ": the suffix must be .mesh or .vtu");
-    for (const std::string* path : {&output, &report, &problem})
-      if (!path->empty()) check_writable(*path);
+    Supervision result;
+    for (const std::string* path : {&output, &report, &problem}) {
+      if (path->empty()) continue;
+      check_writable(*path);
+      result.outputs.push_back(*path);
+    }
+    return result;
+  }
+
+  void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const PolycuboidInput input = read_polycuboid(tets, labels, map);
     HexMapOptions options;
     options.quantize.scale = scale;
@@ -212,8 +236,8 @@ struct HexCommand {
     }
     if (!report.empty()) write_text(report, report_json(input, result));
     if (!problem.empty()) write_text(problem, problem_json(input, result));
-    std::printf("%s: %zu blocks, %zu hexahedra, objective %g, bound %g, %.1f s\n", output.c_str(), result.blocks.blocks.size(),
-                result.hexes.mesh.hexes.size(), result.quantization.objective, result.quantization.bound, seconds_since(start));
+    std::printf("%s: %zu blocks, %zu hexahedra, objective %g, bound %g, %.1f s\n", output.c_str(), result.blocks.blocks.size(), result.hexes.mesh.hexes.size(),
+                result.quantization.objective, result.quantization.bound, seconds_since(start));
   }
 
   CLI::App& command;
@@ -229,28 +253,11 @@ int complain(const std::string& message, Status status) {
   return status;
 }
 
-int run(int argc, char** argv) {
-  const auto start = Monitor::Clock::now();
-  CLI::App app{"Hexahedral meshes of CAD solids by polycube maps", "polycube"};
-  app.set_version_flag("--version", POLYCUBE_VERSION);
-  app.require_subcommand(1);
-  MeshCommand mesh_command(app);
-  LabelCommand label_command(app);
-  HexCommand hex_command(app);
+/// Runs the work; what it throws becomes one line on standard error and an exit status.
+template <class Work>
+int guarded(const Work& work) {
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
-    return complain(e.what(), kBadInput);
-  }
-  Monitor monitor;
-  try {
-    const Console console(monitor, mesh_command.verbose || label_command.verbose || hex_command.verbose);
-    if (mesh_command.command.parsed()) mesh_command.run(monitor, start);
-    if (label_command.command.parsed()) label_command.run(monitor, start);
-    if (hex_command.command.parsed()) hex_command.run(monitor, start);
-    return kDone;
+    return work();
   } catch (const InvalidInput& e) {
     return complain(e.what(), kBadInput);
   } catch (const StageFailed& e) {
@@ -266,6 +273,44 @@ int run(int argc, char** argv) {
   } catch (...) {
     return complain("internal error", kFailed);
   }
+}
+
+/// Checks the command here and runs it in a process of its own.
+template <class Command>
+int supervised(const Command& command, Monitor::Clock::time_point start) {
+  return guarded([&] {
+    const Supervision supervision = command.check(start);
+    const auto work = [&](StageNote& note) {
+      return guarded([&] {
+        Monitor monitor;
+        monitor.set_deadline(supervision.deadline);
+        const Console console(monitor, note, command.verbose);
+        command.run(monitor, start);
+        return static_cast<int>(kDone);
+      });
+    };
+    return supervise(work, supervision);
+  });
+}
+
+int run(int argc, char** argv) {
+  const auto start = Monitor::Clock::now();
+  CLI::App app{"Hexahedral meshes of CAD solids by polycube maps", "polycube"};
+  app.set_version_flag("--version", POLYCUBE_VERSION);
+  app.require_subcommand(1);
+  const MeshCommand mesh_command(app);
+  const LabelCommand label_command(app);
+  const HexCommand hex_command(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    return complain(e.what(), kBadInput);
+  }
+  if (mesh_command.command.parsed()) return supervised(mesh_command, start);
+  if (label_command.command.parsed()) return supervised(label_command, start);
+  return supervised(hex_command, start);
 }
 
 }  // namespace

@@ -12,14 +12,24 @@ namespace polycube {
 
 namespace fs = std::filesystem;
 
-Draft::Draft(const std::string& target) : target_(fs::absolute(target).string()) {
-  const fs::path path(target_);
-  draft_ = (path.parent_path() / ("." + path.filename().string() + "." + std::to_string(getpid()) + ".part")).string();
+namespace {
+
+std::string draft_path(const fs::path& target, int process) {
+  return (target.parent_path() / ("." + target.filename().string() + "." + std::to_string(process) + ".part")).string();
 }
+
+}  // namespace
+
+Draft::Draft(const std::string& target) : target_(fs::absolute(target).string()), draft_(draft_path(target_, getpid())) {}
 
 Draft::~Draft() {
   std::error_code ignored;
   fs::remove(draft_, ignored);
+}
+
+void Draft::discard(const std::string& target, int process) {
+  std::error_code ignored;
+  fs::remove(draft_path(fs::absolute(target), process), ignored);
 }
 
 void Draft::publish() { fs::rename(draft_, target_); }

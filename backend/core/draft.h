@@ -16,6 +16,8 @@ class Draft {
   const std::string& path() const { return draft_; }
   /// Throws std::filesystem::filesystem_error.
   void publish();
+  /// Removes what a process that was killed left of its draft for the target.
+  static void discard(const std::string& target, int process);
 
  private:
   std::string target_, draft_;

@@ -85,6 +85,9 @@ SheetCut block(const HexMesh& mesh, const std::vector<Quad>& quads, const HexTop
 }  // namespace
 
 int make_room(HexMesh& mesh, RoomySurface surface, const CrowdedCorner& corner) {
+  // A layer made for a corner nearby may have moved the quad off the node.
+  const Quad& crowded = surface.quads[corner.quad];
+  if (std::find(crowded.begin(), crowded.end(), corner.node) == crowded.end()) return 0;
   const HexTopology topology = build_topology(mesh, surface.quads);
   // The layer is made on the bare grid: one patch, no chains.
   Association bare;

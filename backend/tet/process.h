@@ -1,8 +1,6 @@
 // One attempt in the worker process.
 #pragma once
 
-#include <chrono>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,25 +8,12 @@
 
 namespace polycube {
 
-/// A folder of its own under the system's temporary one, removed at the end.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// Path of polycube-tet: POLYCUBE_TET_WORKER from the environment, else beside the running shared object or program, else where it was built.
-/// Throws std::runtime_error where there is none.
+/// Path of polycube-tet: POLYCUBE_TET_WORKER from the environment, else beside the running shared object or program, else where it was
+/// built. Throws std::runtime_error where there is none.
 std::string find_worker();
 
-/// Runs a program to its end. Returns an empty line if it ended with status 0, else what happened ("ran longer than 30 s", "died of signal 11", its own
-/// words). Throws Cancelled when the monitor says so; the program never outlives the call.
+/// Runs a program to its end. Returns an empty line if it ended with status 0, else what happened ("ran longer than 30 s", "died of signal
+/// 11", its own words). Throws Cancelled when the monitor says so; the program never outlives the call.
 std::string run_worker(const std::vector<std::string>& command, const std::string& error_file, double seconds, const Monitor& monitor);
 
 }  // namespace polycube

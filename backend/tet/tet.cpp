@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/temporary_folder.h"
 #include "tet/classify.h"
 #include "tet/process.h"
 #include "tet/sizes.h"
@@ -121,8 +122,7 @@ std::vector<std::string> check(const TetMesh& mesh) {
   std::vector<std::string> problems;
   const auto say = [&](const std::string& problem) { problems.push_back(problem); };
   if (mesh.tets.empty()) say("no tetrahedra");
-  if (mesh.point_cad.size() != mesh.points.size() || mesh.triangle_face.size() != mesh.triangles.size() ||
-      mesh.segment_edge.size() != mesh.segments.size()) {
+  if (mesh.point_cad.size() != mesh.points.size() || mesh.triangle_face.size() != mesh.triangles.size() || mesh.segment_edge.size() != mesh.segments.size()) {
     say("classification arrays have wrong lengths");
     return problems;
   }

@@ -94,5 +94,27 @@ TEST(MakeRoom, InASingleLayerOfCells) {
   EXPECT_EQ(bare.faults(), std::vector<std::string>{});
 }
 
+// Corners found on one grid are served one after the other: a layer may move the quad of a later one off its node.
+TEST(MakeRoom, EveryCornerFoundBeforeTheFirstLayer) {
+  for (const int size : {1, 2, 3}) {
+    const Grid grid = box_grid(size);
+    Bare bare(grid);
+    std::vector<CrowdedCorner> corners;
+    for (std::size_t q = 0; q < bare.quads.size(); ++q) {
+      for (int n : bare.quads[q]) {
+        if (grid.association.point_cad[n].dim == 0) corners.push_back({n, static_cast<int>(q)});
+      }
+    }
+    ASSERT_EQ(corners.size(), 24u);
+    int layers = 0;
+    for (const CrowdedCorner& c : corners) layers += bare.room(c.node, c.quad) > 0;
+    EXPECT_GE(layers, 8) << size;
+    if (size < 3) {
+      EXPECT_LT(layers, 24) << size;  // some quads have moved
+    }
+    EXPECT_EQ(bare.faults(), std::vector<std::string>{}) << size;
+  }
+}
+
 }  // namespace
 }  // namespace polycube

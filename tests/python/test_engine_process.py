@@ -1,0 +1,77 @@
+"""The engine runs in a process of its own: whatever happens to it, the user gets a status, one line, and no files.
+
+A stand-in for the program that makes tetrahedra does to the engine what a bug would do.
+"""
+
+import os
+import signal
+import stat
+import subprocess
+import tempfile
+import time
+import unittest
+
+from support import PROGRAM, FolderTest, box
+
+
+class EngineProcess(FolderTest):
+    def start(self, deed, *arguments):
+        """Meshes a box; the engine suffers the deed, a line of shell, in the stage tet."""
+        self.temporary = tempfile.mkdtemp(dir=self.folder)
+        worker = self.path("worker")
+        with open(worker, "w") as file:
+            file.write("#!/bin/sh\n{}\nsleep 60\n".format(deed))
+        os.chmod(worker, os.stat(worker).st_mode | stat.S_IXUSR)
+        part = self.save(box())
+        self.before = set(os.listdir(self.folder))
+        environment = dict(os.environ, POLYCUBE_TET_WORKER=worker, TMPDIR=self.temporary)
+        command = [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--report", self.path("r.json"), *arguments]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+
+    def ends(self, process, status, line):
+        out, error = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out), (status, ""), error)
+        self.assertRegex(error, r"\Apolycube: " + line + r"\n\Z")
+        self.assertEqual(set(os.listdir(self.folder)), self.before, "something was written")
+        self.assertEqual(os.listdir(self.temporary), [], "temporary files are left")
+
+    def test_a_crash_names_its_stage(self):
+        for name in ("SEGV", "ABRT", "FPE"):
+            number = getattr(signal, "SIG" + name)
+            with self.subTest(name):
+                self.ends(self.start("kill -{} $PPID".format(name)), 2, r"stage tet: the engine ended by signal {} \(.+\)".format(int(number)))
+
+    def test_want_of_memory(self):
+        self.ends(self.start("kill -KILL $PPID"), 2, r"stage tet: the engine ended by signal 9 \(.+\), perhaps for want of memory")
+
+    def test_an_engine_that_is_stuck_keeps_the_time_limit(self):
+        self.ends(self.start("kill -STOP $PPID", "--time-limit", "1"), 3, "out of time")
+
+    def test_a_second_interrupt_ends_an_engine_that_is_stuck(self):
+        process = self.start("kill -STOP $PPID; touch {}".format(self.path("stuck")))
+        while not os.path.exists(self.path("stuck")):
+            time.sleep(0.01)
+        os.remove(self.path("stuck"))
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.1)  # two signals at once count as one
+        process.send_signal(signal.SIGTERM)
+        self.ends(process, 3, "cancelled")
+
+    def test_the_engine_ends_with_a_parent_that_is_killed(self):
+        process = self.start("echo $PPID > {0}.new; mv {0}.new {0}".format(self.path("pid")))
+        while not os.path.exists(self.path("pid")):
+            time.sleep(0.01)
+        with open(self.path("pid")) as file:
+            engine = int(file.read())
+        process.kill()
+        process.communicate()
+        for _ in range(1000):
+            if not os.path.exists("/proc/{}".format(engine)):
+                break
+            time.sleep(0.01)
+        else:
+            self.fail("the engine goes on")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -17,7 +17,7 @@ list(APPEND POLYCUBE_WARNINGS -Wno-restrict)
 
 function(polycube_stage NAME)
   cmake_parse_arguments(ARG "" "" "USES;LINKS;PUBLIC_LINKS;SYSTEM" ${ARGN})
-  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/backend/${NAME}/*.cpp)
+  file(GLOB SOURCES CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/backend/${NAME}/*.cpp ${PROJECT_SOURCE_DIR}/backend/${NAME}/search/*.cpp)
   if(NOT SOURCES)
     return()
   endif()

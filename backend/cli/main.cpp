@@ -131,14 +131,16 @@ struct MeshCommand : PartCommand {
     MeshResult result = mesh(model, options, monitor);
     result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
 
+    // A mesh that is there is handed out, late or not.
+    const Monitor finishing(monitor, result.report.out_of_time ? Monitor::Clock::time_point::max() : monitor.deadline());
     const auto fem_start = Monitor::Clock::now();
-    FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, monitor);
+    FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing);
     fem.hex_block = result.hex_block;
     result.report.stages.push_back({"fem", seconds_since(fem_start)});
     result.report.nodes = static_cast<int>(fem.points.size());
     result.report.straightened_edges = fem.straightened;
     const auto write_start = Monitor::Clock::now();
-    write(fem, output, effective_element_type(options), monitor);
+    write(fem, output, effective_element_type(options), finishing);
     result.report.stages.push_back({"write", seconds_since(write_start)});
     if (!report.empty()) write_text(report, to_json(result.report));
 

@@ -1,4 +1,4 @@
-// The three ways a call can end without a result.
+// The ways a call can end without a result.
 #pragma once
 
 #include <stdexcept>
@@ -33,6 +33,12 @@ class StageFailed : public std::runtime_error {
 class Cancelled : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// The time limit passed.
+class OutOfTime : public Cancelled {
+ public:
+  using Cancelled::Cancelled;
 };
 
 /// "Face3", "Edge5", "Vertex2", "Solid1": FreeCAD's name of an entity.

@@ -4,9 +4,12 @@
 
 namespace polycube {
 
+Monitor::Monitor(const Monitor& other, Clock::time_point deadline)
+    : on_progress(other.on_progress), on_log(other.on_log), cancel_requested([&other] { return other.stop_asked(); }), deadline_(deadline) {}
+
 void Monitor::check() const {
-  if (cancelled_ || (cancel_requested && cancel_requested())) throw Cancelled("cancelled");
-  if (Clock::now() > deadline_) throw Cancelled("out of time");
+  if (stop_asked()) throw Cancelled("cancelled");
+  if (Clock::now() > deadline_) throw OutOfTime("out of time");
 }
 
 void Monitor::progress(const std::string& stage, double fraction) const {

@@ -14,6 +14,12 @@ class Monitor {
  public:
   using Clock = std::chrono::steady_clock;
 
+  Monitor() = default;
+  /// Reports where the other reports and is cancelled with it, but has a deadline of its own. Keeps a reference to it.
+  Monitor(const Monitor& other, Clock::time_point deadline);
+  Monitor(const Monitor&) = delete;
+  Monitor& operator=(const Monitor&) = delete;
+
   /// Called with the stage's name and the fraction of that stage done, 0 to 1.
   std::function<void(const std::string& stage, double fraction)> on_progress;
   /// Called with one line of log, without line end.
@@ -27,13 +33,14 @@ class Monitor {
   /// Ask for a stop from any thread.
   void cancel() { cancelled_ = true; }
 
-  /// Throws Cancelled if a stop was asked for or the deadline has passed.
+  /// Throws Cancelled if a stop was asked for, OutOfTime if the deadline has passed.
   void check() const;
   /// check(), then reports.
   void progress(const std::string& stage, double fraction) const;
   void log(const std::string& line) const;
 
  private:
+  bool stop_asked() const { return cancelled_ || (cancel_requested && cancel_requested()); }
   std::atomic<bool> cancelled_{false};
   Clock::time_point deadline_ = Clock::time_point::max();
 };

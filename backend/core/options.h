@@ -27,6 +27,7 @@ struct MeshOptions {
   bool coarsest = false;
   int order = 2;
   std::string element_type;
+  std::string effort = "normal";
   double time_limit = 0;
   double feature_angle = 0;
   FaceList keep_faces;

@@ -90,6 +90,8 @@ class Helpers {
 
 }  // namespace
 
+int thread_count(int asked) { return asked > 0 ? asked : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
 void share_chunks(int chunks, int threads, const std::function<void(int)>& run) {
   threads = std::min(threads, chunks);
   if (threads <= 1) {

@@ -132,6 +132,7 @@ std::string to_json(const MeshReport& report) {
   const QuantizationRecord& q = report.quantization;
   json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
                           {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};
+  json["search"] = {{"plan", report.plan}, {"plans_tried", report.plans_tried}, {"out_of_time", report.out_of_time}};
   json["warnings"] = report.warnings;
   return json.dump(2) + "\n";
 }

@@ -51,6 +51,9 @@ struct MeshReport {
   std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most 20
   CadCapture capture;
   QuantizationRecord quantization;
+  std::string plan;                     ///< of the search: the one that the mesh comes from
+  int plans_tried = 0;
+  bool out_of_time = false;             ///< the time limit ended the search: a better mesh was not looked for
   int padded_hexes = 0;                 ///< cells that padding added
   int loose_nodes = 0;                  ///< on CAD edges whose curve is there more than 1e-7 mm off a face of theirs (files with loose tolerances)
   int straightened_edges = 0;           ///< second order: curved edges left straight because curving would invert a cell

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/charts.h"
+#include "core/parallel.h"
 #include "label/order.h"
 #include "pipeline/realise.h"
 #include "pipeline/structures.h"
@@ -55,7 +56,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   if (until == Until::kMap) {
     DeformOptions deform_options;
     deform_options.merge = 0.02 * size;
-    if (options.threads > 0) deform_options.threads = options.threads;
+    deform_options.threads = thread_count(options.threads);
     try {
       RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
       part.map = std::move(realised.map);

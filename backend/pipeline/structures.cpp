@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/parallel.h"
 #include "pipeline/realise.h"
 
 namespace polycube {
@@ -16,6 +17,11 @@ constexpr int kFewFlips = 50;
 
 // A few flips more or less say nothing, four times as many do.
 int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kFewFlips) / 2); }
+
+void repeat(Structure& s) {
+  s.repeats = true;
+  s.failure = StageFailed("label", "the same as one before");
+}
 
 bool in_doubt(const Structure& s) { return s.failure || s.flipped > kFewFlips; }
 
@@ -33,7 +39,7 @@ LabelOptions label_options(const MeshOptions& options) {
   result.fidelity = options.fidelity;
   result.compactness = options.compactness;
   result.face_labels = options.labels;
-  if (options.threads > 0) result.threads = options.threads;
+  result.threads = thread_count(options.threads);
   return result;
 }
 
@@ -41,17 +47,19 @@ Structures::Structures(const Pose& pose, const MeshOptions& options, double size
     : pose_(pose), model_(pose.model), options_(options), size_(size), ignored_(std::move(ignored)), clock_(clock), monitor_(monitor) {}
 
 const TetMesh& Structures::tets(double factor) {
-  const auto [it, fresh] = tets_.try_emplace(factor);
-  Tets& made = it->second;
-  if (fresh) {
+  const auto found = tets_.find(factor);
+  if (found == tets_.end()) {
+    Tets made;
     try {
       made.mesh = clock_.stage("tet", [&] { return tetrahedralise(model_, tet_options(size_, model_.diagonal(), factor), monitor_); });
     } catch (const StageFailed& e) {
       made.failure = e;
     }
+    tets_.emplace(factor, std::move(made));
   }
-  if (made.failure) throw *made.failure;
-  return made.mesh;
+  const Tets& kept = tets_.at(factor);
+  if (kept.failure) throw *kept.failure;
+  return kept.mesh;
 }
 
 LabelChoice& Structures::labellings(double tet_size) {
@@ -70,17 +78,8 @@ std::vector<LabelVariant> Structures::label_order() {
   } catch (const StageFailed&) {
     return {LabelVariant{}};
   }
-  if (in_doubt(made(order.front()))) sort_by_map(order);
+  if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
   return order;
-}
-
-const Structure& Structures::made(const LabelVariant& labels) {
-  const StructurePlan plan{.labels = labels};
-  try {
-    return structure(plan);
-  } catch (const StageFailed&) {
-    return structures_.at(plan);
-  }
 }
 
 // Those that are as good as the first in all that can be said without a map.
@@ -93,7 +92,7 @@ void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kMapped));
   const auto end = std::find_if(order.begin(), last, [&, first = without_map(order.front())](const LabelVariant& v) { return without_map(v) > first; });
   const auto key = [&](const LabelVariant& v) {
-    const Structure& s = made(v);
+    const Structure& s = built({.labels = v});
     return std::tuple(s.failure.has_value(), magnitude(s.flipped), s.distortion);
   };
   std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return key(a) < key(b); });
@@ -114,19 +113,25 @@ std::vector<char> Structures::left_out(const StructurePlan& plan) const {
   return out;
 }
 
-const Structure& Structures::structure(const StructurePlan& plan) {
-  const auto [it, fresh] = structures_.try_emplace(plan);
-  Structure& s = it->second;
-  if (fresh) {
-    try {
-      build(plan, s);
-    } catch (const StageFailed& e) {
-      s.failure = e;
-    }
+const Structure& Structures::built(const StructurePlan& plan) {
+  const auto found = structures_.find(plan);
+  if (found != structures_.end()) return found->second;
+  Structure made;
+  try {
+    build(plan, made);
+  } catch (const StageFailed& e) {
+    made.failure = e;
   }
-  if (s.failure) throw *s.failure;
+  return structures_.emplace(plan, std::move(made)).first->second;
+}
+
+const Structure& Structures::structure(const StructurePlan& plan) {
+  const Structure& s = built(plan);
+  if (s.failure) throw StageFailed(*s.failure);
   return s;
 }
+
+bool Structures::repeats(const StructurePlan& plan) { return built(plan).repeats; }
 
 void Structures::build(const StructurePlan& plan, Structure& s) {
   LabelChoice& choice = labellings(plan.tet_size);
@@ -134,7 +139,7 @@ void Structures::build(const StructurePlan& plan, Structure& s) {
     return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
   };
   // Where nothing is wrong, stricter labels would be the same.
-  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels)).faults == 0) throw StageFailed("label", "the same as one before");
+  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels)).faults == 0) return repeat(s);
   const Labelled& chosen = labelled(plan.labels);
   const std::vector<char> out = left_out(plan);
   s.tets = chosen.mesh;
@@ -143,11 +148,14 @@ void Structures::build(const StructurePlan& plan, Structure& s) {
   std::vector<std::vector<int>> made{chosen.labelling.label};
   for (const FeatureEdge& e : s.features.edges) made.push_back({e.edge, static_cast<int>(e.capture), out[e.edge]});
   made.push_back({static_cast<int>(s.features.charts.size())});
-  if (!tried_.insert(std::move(made)).second) throw StageFailed("label", "the same as one before");
+  if (!tried_.insert(std::move(made)).second) return repeat(s);
+  for (const FeatureEdge& e : s.features.edges) {
+    if (e.capture == EdgeCapture::kLost && !out[e.edge]) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
+  }
 
   DeformOptions deform_options;
   deform_options.merge = 0.02 * size_;
-  if (options_.threads > 0) deform_options.threads = options_.threads;
+  deform_options.threads = thread_count(options_.threads);
   RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options, monitor_); });
   s.map = std::move(realised.map);
   s.flipped = realised.report.flipped;

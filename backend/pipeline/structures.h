@@ -37,6 +37,7 @@ struct Structure {
   PolycuboidMap map;
   BlockComplex blocks;
   std::optional<StageFailed> failure;
+  bool repeats = false;       ///< labels and features are those of one made before: that is its failure
   int flipped = 0;            ///< tets that the map turns over
   double distortion = 0;      ///< DeformReport's
 };
@@ -54,6 +55,8 @@ class Structures {
   std::vector<LabelVariant> label_order();
   /// Invalid labels, where others are valid, take long to map and seldom have a map.
   bool doubtful(const StructurePlan& plan);
+  /// Whether one made before has the same labels and features.
+  bool repeats(const StructurePlan& plan);
   /// Per CAD edge: whether the plan does without it.
   std::vector<char> left_out(const StructurePlan& plan) const;
 
@@ -64,8 +67,9 @@ class Structures {
   };
   const TetMesh& tets(double factor);
   LabelChoice& labellings(double tet_size);
-  const Structure& made(const LabelVariant& labels);
   void sort_by_map(std::vector<LabelVariant>& order);
+  /// Makes it where it is not there yet; a failure of a stage is kept in it.
+  const Structure& built(const StructurePlan& plan);
   void build(const StructurePlan& plan, Structure& s);
 
   const Pose& pose_;

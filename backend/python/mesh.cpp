@@ -54,7 +54,9 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
     MeshResult result = polycube::mesh(model, options, callbacks.monitor);
     const auto fem_start = Monitor::Clock::now();
     std::vector<int> blocks = std::move(result.hex_block);
-    Mesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, callbacks.monitor), std::move(result.report)};
+    // A mesh that is there is handed out, late or not.
+    const Monitor finishing(callbacks.monitor, result.report.out_of_time ? Monitor::Clock::time_point::max() : callbacks.monitor.deadline());
+    Mesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing), std::move(result.report)};
     made.fem.hex_block = std::move(blocks);
     made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
     made.report.stages.push_back({"fem", seconds(fem_start)});

@@ -1,0 +1,378 @@
+#include "pipeline/search/evaluator.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "core/quality.h"
+#include "fit/fit.h"
+#include "hex/hex.h"
+#include "pad/associate.h"
+#include "pad/pad.h"
+#include "pipeline/block_ids.h"
+#include "pipeline/demands.h"
+#include "pipeline/edge_runs.h"
+#include "pipeline/gate.h"
+#include "pipeline/search/give_up.h"
+#include "pipeline/vertex_room.h"
+#include "quantize/quantize.h"
+
+namespace polycube {
+namespace {
+
+// Good enough to fit no other way of padding.
+constexpr double kGoodScaledJacobian = 0.2;
+// Times that edges are given up for one draft, around its inverted cells in widening rings.
+constexpr int kSurrenderRounds = 5, kSurrenderRings = 4;
+// A size above this share of the diagonal may be too coarse for the edges of the part: then the first of these factors on the number of cells
+// along an edge counts with which every CAD edge finds its path.
+constexpr double kCoarse = 1.0 / 25;
+constexpr std::array kFiner{1.25, 1.6, 2.0};
+// Divisions of the grid one after the other at one vertex: for as many CAD edges more than a corner of the grid has.
+constexpr int kRoomRounds = 3;
+// eta of section 6.2 for the coarsest mesh.
+constexpr double kCoarsest = 1e-6;
+
+/// CAD edges on a grid, and where they lack room.
+struct Routed {
+  Association association;
+  std::vector<CrowdedCorner> crowded;
+};
+
+double typical_edge(const HexMesh& mesh) {
+  double sum = 0;
+  for (const Hex& h : mesh.hexes) {
+    sum += (mesh.points[h[0]] - mesh.points[h[1]]).norm() + (mesh.points[h[0]] - mesh.points[h[3]]).norm() + (mesh.points[h[0]] - mesh.points[h[4]]).norm();
+  }
+  return sum / (3.0 * static_cast<double>(mesh.hexes.size()));
+}
+
+template <class Mesh>
+Score score_of(double least, const Mesh& m) {
+  return {static_cast<int>(m.association.lost_edges.size()), static_cast<int>(m.association.lost_vertices.size()), least, free_scaled_jacobian(m.mesh, m.association)};
+}
+
+// Cells in a narrow corner of the CAD are what they are; another way of padding would have the same.
+bool good_cells(const Score& s) { return s.least >= kGoodScaledJacobian || (s.least >= kGoodScaledJacobian / 2 && s.free_least >= kGoodScaledJacobian); }
+
+StageFailed inverted(const FitReport& fitted) {
+  std::vector<CadRef> faces;
+  for (int f : fitted.bad_faces) faces.push_back({2, f});
+  return StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
+}
+
+}  // namespace
+
+/// A mesh on the way: what plans that surrender edges start from.
+struct Evaluator::Draft {
+  Plan plan;
+  const Structure* structure = nullptr;
+  HexComplex complex;
+  Quantization quantization;
+  AssociateOptions options;
+  PaddedMesh padded;
+  int choice = -1;  // of the padding plans
+  FitReport fitted;
+  int padded_hexes = 0;  // that padding added
+};
+
+/// One evaluation, with the fits it may take.
+class Evaluator::Work {
+ public:
+  Work(Evaluator& own, int fits)
+      : own_(own), model_(own.model_), options_(own.options_), monitor_(own.monitor_), clock_(own.clock_), fits_(fits), fits_left_(fits) {}
+
+  Outcome anew(const Plan& plan) {
+    Draft draft = fitted(plan, options_.divisions);
+    Outcome outcome = closed(std::move(draft));
+    if (outcome.kind == Outcome::Kind::kMesh) retry_padded(plan, outcome);
+    return counted(std::move(outcome));
+  }
+
+  // A mesh that misses an edge is worth more than none.
+  Outcome surrendered(Draft draft, Surrender how) {
+    const int rounds = how == Surrender::kEdges ? kSurrenderRounds : kSurrenderRings;
+    Outcome outcome = closed(draft);
+    for (int round = 0; round < rounds && fits_left_ > 0; ++round) {
+      if (how == Surrender::kAround) {
+        give_up_around(model_, draft.padded, round, draft.options, monitor_);
+      } else if (!give_up_edges(model_, options_.keep_faces, draft.padded, 1 << round, draft.options, monitor_)) {  // more and more, to come to an end
+        break;
+      }
+      pad_and_fit(draft, divided(draft, routed(draft, draft.complex)));
+      outcome = closed(draft);
+      if (outcome.kind == Outcome::Kind::kMesh) break;
+    }
+    return counted(std::move(outcome));
+  }
+
+ private:
+  Outcome counted(Outcome outcome) const {
+    outcome.fits = fits_ - fits_left_;
+    return outcome;
+  }
+
+  // What a draft comes to: a mesh, or what others may start from.
+  Outcome closed(Draft draft) const {
+    Outcome outcome;
+    outcome.faults = draft.fitted.inverted + static_cast<int>(draft.padded.association.lost_edges.size());
+    if (draft.fitted.inverted > 0) {
+      outcome.failure = Failure{inverted(draft.fitted), {}};
+    } else {
+      try {
+        const auto start = Monitor::Clock::now();
+        gate(model_, draft.padded, options_, monitor_);
+        own_.seconds_to_finish_ = std::chrono::duration<double>(Monitor::Clock::now() - start).count();
+        outcome.kind = Outcome::Kind::kMesh;
+        outcome.score = score_of(draft.fitted.min_scaled_jacobian, draft.padded);
+        outcome.score->least = summarise(draft.padded.mesh).min_scaled_jacobian;
+      } catch (const StageFailed& e) {
+        outcome.failure = Failure{e, {}};
+      }
+    }
+    outcome.draft = std::make_shared<const Draft>(std::move(draft));
+    return outcome;
+  }
+
+  // Padding can add cells to a division that has a maximum: fewer are asked for then.
+  void retry_padded(const Plan& plan, Outcome& outcome) {
+    const PaddedMesh& padded = static_cast<const Draft*>(outcome.draft.get())->padded;
+    const auto unmet = [&](const PaddedMesh& m) { return unmet_divisions(m.mesh, m.association, options_.divisions).size(); };
+    const Divisions fewer = allow_for_padding(padded.mesh, padded.association, options_.divisions);
+    if (fewer == options_.divisions || fits_left_ <= 0) return;
+    try {
+      Outcome again = closed(fitted(plan, fewer));
+      if (again.kind == Outcome::Kind::kMesh && unmet(static_cast<const Draft*>(again.draft.get())->padded) < unmet(padded)) outcome = std::move(again);
+    } catch (const StageFailed& e) {
+      monitor_.log("with fewer divisions: " + e.stage() + ": " + e.what());
+    } catch (const InvalidInput& e) {
+      monitor_.log(std::string("with fewer divisions: ") + e.what());
+    }
+  }
+
+  Draft fitted(const Plan& plan, const Divisions& divisions) {
+    Draft draft = on_grid(plan, false, divisions);
+    Routed routes = routed(draft, draft.complex);
+    if (!routes.association.lost_edges.empty()) give_room(draft, routes, divisions);
+    Association association = divided(draft, std::move(routes));
+    if (!options_.coarsest && plan.structure.min_bend == 0 && own_.size_ > kCoarse * model_.diagonal()) {
+      for (const double finer : kFiner) {
+        if (association.lost_edges.empty()) break;
+        if (finer <= plan.refine) continue;
+        refine(draft, association, finer, divisions);
+      }
+    }
+    pad_and_fit(draft, association);
+    return draft;
+  }
+
+  // The draft on a finer grid, where that captures more CAD edges and is not too fine for any computer.
+  void refine(Draft& draft, Association& association, double finer, const Divisions& divisions) {
+    Plan refined = draft.plan;
+    refined.refine = finer;
+    try {
+      Draft next = on_grid(refined, false, divisions);
+      Association found = divided(next, routed(next, next.complex));
+      if (found.lost_edges.size() >= association.lost_edges.size()) return;
+      draft = std::move(next);
+      association = std::move(found);
+    } catch (const StageFailed& e) {
+      monitor_.log("on a finer grid: " + e.stage() + ": " + e.what());
+    } catch (const InvalidInput& e) {
+      monitor_.log(std::string("on a finer grid: ") + e.what());
+    }
+  }
+
+  // Edges may have found no path because too few cells are there for them.
+  void give_room(Draft& draft, Routed& routes, const Divisions& divisions) {
+    Draft next = on_grid(draft.plan, true, divisions);
+    if (next.quantization.value == draft.quantization.value) return;
+    Routed found = routed(next, next.complex);
+    if (found.association.lost_edges.size() >= routes.association.lost_edges.size()) return;
+    draft = std::move(next);
+    routes = std::move(found);
+  }
+
+  // The plan up to its grid of hexahedra. `roomy`: cells enough for CAD edges that go on from each other inside a chart.
+  Draft on_grid(const Plan& plan, bool roomy, const Divisions& divisions) {
+    Draft draft;
+    draft.plan = plan;
+    draft.structure = &own_.structures_.structure(plan.structure);
+    const Structure& s = *draft.structure;
+    draft.options.ignored = own_.ignored_;
+    draft.options.edge_chains = edge_chains(model_, s.tets);
+    const std::vector<char> out = own_.structures_.left_out(plan.structure);
+    for (int e = 1; e <= model_.edge_count(); ++e) {
+      if (out[e] && !own_.ignored_[e]) draft.options.edge_chains[e].clear();
+    }
+    draft.quantization = clock_.stage("quantize", [&] { return quantized(plan, s, draft.options, roomy, divisions); });
+    draft.complex = clock_.stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, draft.quantization, monitor_); });
+    monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(draft.complex.mesh.hexes.size()) + " hexes");
+    draft.options.size = typical_edge(draft.complex.mesh);
+    return draft;
+  }
+
+  Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
+    const double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
+    MeshOptions demanded = options_;
+    demanded.divisions = divisions;
+    const QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
+    QuantizeOptions with_room = asked;
+    auto room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
+    if (roomy) {
+      auto chains = association.edge_chains;
+      for (const FeatureEdge& e : s.features.edges) {
+        if (e.capture == EdgeCapture::kLost) chains[e.edge].clear();
+      }
+      const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
+      room.insert(room.end(), more.begin(), more.end());
+    }
+    with_room.constraints.insert(with_room.constraints.end(), room.begin(), room.end());
+    try {
+      return quantize(s.blocks, s.map, with_room, monitor_);
+    } catch (const InvalidInput&) {
+      if (room.empty()) throw;
+      return quantize(s.blocks, s.map, asked, monitor_);  // what the user demands comes first
+    }
+  }
+
+  Routed routed(const Draft& draft, const HexComplex& complex) {
+    Routed result;
+    const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
+    result.association =
+        clock_.stage("pad", [&] { return associate(model_, draft.structure->tets, draft.structure->map.charts, boundary, draft.options, monitor_, &result.crowded); });
+    return result;
+  }
+
+  // Where vertices lack mesh edges for their CAD edges the grid is divided there, as long as that captures more of them.
+  Association divided(Draft& draft, Routed routes) {
+    Association association = std::move(routes.association);
+    HexComplex roomy = draft.complex;
+    for (int round = 0; round < kRoomRounds && !routes.crowded.empty(); ++round) {
+      int added = 0;
+      for (const CrowdedCorner& c : routes.crowded) added += make_room(roomy.mesh, {roomy.quads, roomy.quad_chart, roomy.quad_triangle}, c);
+      if (added == 0) break;
+      monitor_.log("pad: room made at " + std::to_string(routes.crowded.size()) + " vertices");
+      routes = routed(draft, roomy);
+      if (routes.association.lost_edges.size() >= association.lost_edges.size()) continue;
+      association = std::move(routes.association);
+      draft.complex = roomy;
+    }
+    monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
+                 std::to_string(association.lost_vertices.size()) + " vertices without mesh");
+    return association;
+  }
+
+  // Pads by the plan that the draft chose before, or by the best of all.
+  void pad_and_fit(Draft& draft, const Association& association) {
+    std::vector<PadReport> pad_reports;
+    std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, &pad_reports); });
+    if (draft.choice >= 0 && choices.size() > 1) {
+      const auto index = std::min(static_cast<std::size_t>(draft.choice), choices.size() - 1);
+      choices = {std::move(choices[index])};
+      pad_reports = {pad_reports[index]};
+    }
+    if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
+    FitOptions fit_options;
+    fit_options.threads = own_.threads_;
+    std::vector<FitCandidate> candidates;
+    for (PaddedMesh& c : choices) candidates.push_back({c.mesh, c.association});
+    const auto good = [&](std::size_t i, const FitReport& r) { return r.inverted == 0 && good_cells(score_of(r.min_scaled_jacobian, choices[i])); };
+    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options, fits_left_, good, monitor_); });
+    const std::size_t chosen = best.index;
+    fits_left_ -= best.fitted;
+    draft.fitted = best.report;
+    draft.padded_hexes = pad_reports[chosen].added_hexes;
+    monitor_.log("pad: " + std::to_string(draft.padded_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) + " rings, choice " +
+                 std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
+    monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +
+                 std::to_string(draft.fitted.inverted) + " inverted");
+    if (draft.choice < 0) draft.choice = static_cast<int>(chosen);
+    draft.padded = std::move(choices[chosen]);
+    for (const WorstCell& cell : worst_cells(draft.padded.mesh, draft.padded.association, 3)) {
+      std::string line = "fit: cell at";
+      for (double x : own_.pose_.back(cell.centre)) line += " " + std::to_string(x);
+      line += " has SJ " + std::to_string(cell.scaled_jacobian);
+      for (int f : cell.faces) line += " " + name({2, f});
+      monitor_.log(line);
+    }
+  }
+
+  Evaluator& own_;
+  const CadModel& model_;
+  const MeshOptions& options_;
+  const Monitor& monitor_;
+  StageClock& clock_;
+  const int fits_;
+  int fits_left_;
+};
+
+Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, const Monitor& monitor)
+    : pose_(pose),
+      model_(pose.model),
+      options_(options),
+      monitor_(monitor),
+      size_(options.hexes > 0 ? std::cbrt(model_.volume() / options.hexes) : effective_size(options, model_.diagonal())),
+      ignored_(smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
+      threads_(thread_count(options.threads)),
+      clock_(monitor),
+      structures_(pose, options, size_, ignored_, clock_, monitor) {}
+
+Evaluator::~Evaluator() = default;
+
+std::vector<LabelVariant> Evaluator::label_order() { return structures_.label_order(); }
+
+Outcome Evaluator::evaluate(const Plan& plan, const std::shared_ptr<const void>& from, int fits) {
+  if (plan.surrender != Surrender::kNothing) return Work(*this, fits).surrendered(*static_cast<const Draft*>(from.get()), plan.surrender);
+  Outcome skipped;
+  skipped.kind = Outcome::Kind::kPostponed;
+  if (plan.may_wait && structures_.doubtful(plan.structure)) return skipped;
+  skipped.kind = Outcome::Kind::kDuplicate;
+  if (structures_.repeats(plan.structure)) return skipped;
+  return Work(*this, fits).anew(plan);
+}
+
+MeshResult Evaluator::result(const Outcome& outcome) const {
+  const Draft& draft = *static_cast<const Draft*>(outcome.draft.get());
+  const Structure& s = *draft.structure;
+  const Quantization& q = draft.quantization;
+  MeshResult result;
+  result.mesh = draft.padded.mesh;
+  result.association = draft.padded.association;
+  std::vector<int> blocks = draft.complex.hex_block;
+  if (options_.coarsest) std::iota(blocks.begin(), blocks.end(), 0);
+  result.hex_block = carry_blocks(result.mesh, std::move(blocks));
+
+  MeshReport& r = result.report;
+  r.version = POLYCUBE_VERSION;
+  r.size = size_;
+  r.charts = static_cast<int>(s.map.charts.size());
+  r.blocks = static_cast<int>(s.blocks.blocks.size());
+  r.tets = static_cast<int>(s.tets.tets.size());
+  r.quantization = {q.objective, q.bound, q.gap(), q.optimal, q.nodes, q.cuts, q.c2_rounds};
+  r.padded_hexes = draft.padded_hexes;
+  r.hexes = static_cast<int>(result.mesh.hexes.size());
+  r.nodes = static_cast<int>(result.mesh.points.size());
+  std::vector<int> real;
+  for (int e = 1; e <= model_.edge_count(); ++e) {
+    if (!model_.edge(e).seam && !model_.edge(e).degenerate && !model_.edge(e).tiny) real.push_back(e);
+  }
+  r.capture = capture(result.association, model_.vertex_count(), real, model_.face_count());
+  r.stages = clock_.records();
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  r.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+
+  if (!q.optimal) r.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
+  if (draft.plan.refine != 1) r.warnings.push_back("the cells are finer than asked for");
+  for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
+  for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
+  return result;
+}
+
+}  // namespace polycube

@@ -1,5 +1,6 @@
-"""Runs gui_tests.py in a FreeCAD window and leaves the status in POLYCUBE_GUI_OUT/status."""
+"""Runs one module of tests, POLYCUBE_GUI_MODULE, in a FreeCAD window and leaves the status in POLYCUBE_GUI_OUT/status."""
 
+import importlib
 import os
 import sys
 import unittest
@@ -9,9 +10,8 @@ import FreeCADGui
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 FreeCADGui.showMainWindow()
 
-import gui_tests  # noqa: E402  (needs the window)
-
-outcome = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(unittest.defaultTestLoader.loadTestsFromModule(gui_tests))
+module = importlib.import_module(os.environ["POLYCUBE_GUI_MODULE"])  # needs the window
+outcome = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(unittest.defaultTestLoader.loadTestsFromModule(module))
 with open(os.path.join(os.environ["POLYCUBE_GUI_OUT"], "status"), "w", encoding="ascii") as file:
     file.write("0" if outcome.wasSuccessful() and outcome.testsRun else "1")
 sys.stderr.flush()

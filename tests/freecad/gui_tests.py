@@ -1,98 +1,16 @@
 """Workbench, command and task panel in a real window; run by gui.sh."""
 
 import os
-import time
-import unittest
 
 import FemGui
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
 import Part
+from gui_support import GuiTest, picture, process_events, wait_until
 from PySide import QtCore, QtGui
 
 from freecad.polycube import commands, objects, task_panel
-
-OUT = os.environ["POLYCUBE_GUI_OUT"]
-
-
-def process_events(seconds=0.2):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        QtGui.QApplication.processEvents(QtCore.QEventLoop.AllEvents, 20)
-
-
-def wait_until(condition, seconds=240):
-    end = time.monotonic() + seconds
-    while not condition() and time.monotonic() < end:
-        process_events(0.05)
-    return condition()
-
-
-def picture(name):
-    process_events(0.5)
-    QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name + ".png"))
-
-
-class GuiTest(unittest.TestCase):
-    def setUp(self):
-        FreeCADGui.activateWorkbench("PolycubeWorkbench")
-        window = FreeCADGui.getMainWindow()
-        window.showMaximized()
-        for dock in window.findChildren(QtGui.QDockWidget):
-            if dock.objectName() == "Combo View":
-                window.resizeDocks([dock], [460], QtCore.Qt.Horizontal)
-            elif dock.objectName() in ("Report view", "Python console"):
-                dock.hide()
-        self.document = FreeCAD.newDocument()
-        self.document.UndoMode = 1
-        self.box = self.document.addObject("Part::Box", "Block")
-        self.box.Length, self.box.Width, self.box.Height = 60, 40, 20
-        self.document.recompute()
-        self.document.clearUndos()
-        FreeCADGui.activeDocument().activeView().viewIsometric()
-        FreeCADGui.SendMsgToActiveView("ViewFit")
-
-    def tearDown(self):
-        panel = task_panel.MeshPanel._running
-        if panel:
-            panel.cancel()
-            wait_until(lambda: not panel.process, 10)
-        FreeCADGui.Control.closeDialog()
-        FreeCADGui.Selection.clearSelection()
-        FreeCAD.closeDocument(self.document.Name)
-        process_events()
-
-    def open_panel(self, part):
-        """Runs the command on the part; returns the panel (FreeCAD does not hand it out, so it is caught on its way)."""
-        FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(part)
-        panels = []
-        original = task_panel.MeshPanel.__init__
-
-        def catch(panel, *arguments, **named):
-            panels.append(panel)
-            original(panel, *arguments, **named)
-
-        task_panel.MeshPanel.__init__ = catch
-        try:
-            FreeCADGui.runCommand(commands.MeshFromShape.Name)
-        finally:
-            task_panel.MeshPanel.__init__ = original
-        process_events()
-        self.assertEqual(len(panels), 1)
-        return panels[0]
-
-    def press(self, name):
-        """Presses a button of the task panel."""
-        wanted = getattr(QtGui.QDialogButtonBox, name)
-        for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
-            button = box.button(wanted)
-            if button and button.isVisible():
-                button.click()
-                process_events(0.1)
-                return
-        self.fail("no button " + name)
 
 
 class Workbench(GuiTest):

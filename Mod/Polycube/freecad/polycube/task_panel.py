@@ -3,6 +3,7 @@
 import html
 import json
 import time
+import traceback
 
 import FreeCAD
 import FreeCADGui
@@ -21,9 +22,9 @@ def _number(flag):
 
 
 def _exists(obj):
-    """Whether the object is still in its document. One that was undone lives on for redo, and writing to it crashes FreeCAD."""
+    """Whether the object is still in its document. One that was undone lives on for redo, without a name, and writing to it crashes FreeCAD."""
     try:
-        return obj is not None and obj.Document.getObject(obj.Name) == obj
+        return obj is not None and bool(obj.Name) and obj.Document.getObject(obj.Name) == obj
     except (ReferenceError, RuntimeError, AttributeError):  # deleted; out of its document; its document closed
         return False
 
@@ -35,6 +36,7 @@ class MeshPanel:
     """
 
     _running = None  # the one panel that meshes at present: FreeCAD shows one task panel at a time
+    _form = None
 
     def __init__(self, part, obj=None, analysis=None):
         self.part, self.obj = part, obj
@@ -59,16 +61,39 @@ class MeshPanel:
         self._meshed_options = {}
         self.form.label_key.setText(label_view.key())
         self.form.preview.toggled.connect(self._preview)
-        self.form.destroyed.connect(self._end_preview)  # FreeCAD can close the panel without a word
         self.form.automatic.clicked.connect(self._automatic)
         self._show_parameters()
         self._show_quality()
+        FreeCAD.addDocumentObserver(self)
 
     @classmethod
     def is_meshing(cls, obj):
         return cls._running is not None and cls._running.obj == obj
 
     # --- what FreeCAD calls -------------------------------------------------------------------------------------------------
+
+    @property
+    def form(self):
+        """The widgets, None once the panel is closed."""
+        return self._form
+
+    @form.setter
+    def form(self, form):
+        """FreeCAD sets None just before it deletes the widgets, in whatever way the panel is closed.
+
+        Their signal `destroyed` must not be used for that: it hands out what is half deleted, and PySide takes the next widget at that address for it.
+        """
+        if form is None and self._form is not None:
+            try:
+                self._end()
+            except Exception:  # FreeCAD is in a destructor, an error would end it
+                FreeCAD.Console.PrintError("Polycube: {}\n".format(traceback.format_exc()))
+        self._form = form
+
+    def slotDeletedDocument(self, document):
+        """FreeCAD leaves a panel open whose document is closed."""
+        if document.Name == self.document_name and self._form is not None:
+            FreeCADGui.Control.closeDialog()
 
     def getStandardButtons(self):
         return _number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
@@ -223,9 +248,17 @@ class MeshPanel:
             self.job.close()
             self.job = None
 
-    def _close(self):
+    def _end(self):
+        """Nothing goes on that the panel has begun, and its marks go."""
+        FreeCAD.removeDocumentObserver(self)
+        self._labels_are_old = False
+        if self.process:
+            self.cancel()
+            self.process.waitForFinished()  # it was killed; _finished is called here
         self._clear_marks()
         self._end_preview()
+
+    def _close(self):
         gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None
         if gui_document and gui_document.getInEdit():
             gui_document.resetEdit()
@@ -248,7 +281,7 @@ class MeshPanel:
             self.clicks = label_view.FaceClicks(self.part, self.face_clicked)
             self._update_labels()
 
-    def _end_preview(self, *_):
+    def _end_preview(self):
         if self.clicks:
             self.clicks.remove()
         if self.overlay and self.document_name in FreeCAD.listDocuments():

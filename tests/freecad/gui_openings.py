@@ -1,0 +1,167 @@
+"""The panel opened and closed again and again, in every way that a panel opens and closes; run by gui.sh.
+
+POLYCUBE_OPENINGS sets how often, 40 unless told: 300 take two minutes.
+"""
+
+import gc
+import os
+
+import FreeCAD
+import FreeCADGui
+from gui_support import GuiTest, process_events, wait_until
+from PySide import QtGui
+
+from freecad import polycube
+from freecad.polycube import task_panel
+
+OPENINGS = int(os.environ.get("POLYCUBE_OPENINGS", "40"))
+
+
+class Openings(GuiTest):
+    def setUp(self):
+        super().setUp()
+        self.obj = polycube.create_fem_mesh(self.box, size=20)
+
+    def open_anew(self):
+        return self.open_panel(self.box)
+
+    def open_the_mesh(self):
+        return self.caught(lambda: self.obj.ViewObject.Proxy.doubleClicked(self.obj.ViewObject))
+
+    def close_by_cancel(self):
+        self.press("Cancel")
+
+    def close_by_ok(self):
+        self.press("Ok")
+
+    def close_without_a_word(self):
+        FreeCADGui.Control.closeDialog()
+        FreeCADGui.activeDocument().resetEdit()
+        process_events(0.02)
+
+    def check(self, panel):
+        """All that the panel shows is there, is of its own kind and works."""
+        form = panel.form
+        self.assertTrue(FreeCADGui.Control.activeDialog())
+        kinds = {
+            **{"parameters": QtGui.QGroupBox, "part": QtGui.QLabel, "hexes": QtGui.QSpinBox, "order": QtGui.QComboBox, "preview": QtGui.QCheckBox},
+            **{"given_labels": QtGui.QListWidget, "automatic": QtGui.QPushButton, "progress": QtGui.QProgressBar, "log": QtGui.QPlainTextEdit},
+            **{"summary": QtGui.QLabel, "colours": QtGui.QCheckBox, "worst": QtGui.QTableWidget, "time": QtGui.QLabel},
+        }
+        for name, kind in kinds.items():
+            self.assertIsInstance(getattr(form, name), kind, name)
+        self.assertEqual(form.part.text(), self.box.Label)
+        self.assertEqual(form.element_size.property("rawValue"), 20 if panel.obj else 0)
+        self.assertEqual("cells" in form.summary.text(), panel.obj is not None)
+        self.assertEqual(form.worst.rowCount() > 0, panel.obj is not None)
+        form.log.clear()
+        panel.log("opened")
+        self.assertIn("opened", form.log.toPlainText())
+        self.assertIs(form.isVisible(), True)
+
+    def test_every_opening_works(self):
+        ways_in = [self.open_anew, self.open_the_mesh]
+        ways_out = [self.close_by_cancel, self.close_without_a_word, self.close_by_ok]
+        failures = []
+        for number in range(OPENINGS):
+            way_in, way_out = ways_in[number % 2], ways_out[number % 3]
+            try:
+                panel = way_in()
+                self.check(panel)
+                if number % 5 == 0:
+                    panel.form.worst.selectRow(0)
+                    panel.form.colours.setChecked(panel.obj is not None)
+                way_out()
+                self.assertFalse(FreeCADGui.Control.activeDialog())
+                # Some panels live on a while, as those do that Python has not collected yet.
+                if number % 4 == 0:
+                    del panel
+                    gc.collect()
+            except Exception as error:
+                failures.append("{}: {} {}: {}".format(number, way_in.__name__, way_out.__name__, error))
+                FreeCADGui.Control.closeDialog()
+                FreeCADGui.activeDocument().resetEdit()
+        print("{} openings, {} failures".format(OPENINGS, len(failures)))
+        self.assertEqual(failures, [])
+        self.assertIs(self.document.getObject(self.obj.Name), self.obj)
+        self.assertEqual(self.obj.Hexahedra, self.obj.FemMesh.HexaCount)
+
+
+class ClosedWithoutAWord(GuiTest):
+    """FreeCAD closes the panel by itself: for a script, for another command, or with the document."""
+
+    def open(self, edit):
+        if not edit:
+            return self.open_panel(self.box)
+        obj = polycube.create_fem_mesh(self.box, size=20)
+        return self.caught(lambda: obj.ViewObject.Proxy.doubleClicked(obj.ViewObject))
+
+    def close_document(self):
+        FreeCAD.closeDocument(self.name)
+
+    def check(self, begin):
+        """Whatever was begun ends, in each way of closing: the child process, its folder, the preview, the panel itself."""
+        for close in (FreeCADGui.Control.closeDialog, self.close_document):
+            for edit in (False, True):
+                with self.subTest(close=close.__name__, edit=edit):
+                    if not self.is_open():
+                        self.setUp()
+                    panel = self.open(edit)
+                    scene = FreeCADGui.activeDocument().activeView().getSceneGraph()
+                    before = scene.getNumChildren()
+                    begin(panel)
+                    pid, folder = int(panel.process.processId()), panel.job.folder
+                    self.assertTrue(os.path.exists(folder))
+                    close()
+                    process_events()
+                    self.assertFalse(FreeCADGui.Control.activeDialog())
+                    self.assertIsNone(panel.form)
+                    self.assertIsNone(panel.process)
+                    self.assertIsNone(panel.overlay)
+                    self.assertFalse(os.path.exists("/proc/{}".format(pid)))
+                    self.assertFalse(os.path.exists(folder))
+                    self.assertFalse(task_panel.MeshPanel.is_meshing(panel.obj))
+                    if self.is_open():
+                        FreeCADGui.activeDocument().resetEdit()
+                        self.assertEqual(scene.getNumChildren(), before)
+                        self.assertEqual(len(self.document.Objects), 2 if edit else 1)
+
+    def test_while_it_meshes(self):
+        def begin(panel):
+            panel.form.element_size.setProperty("rawValue", 0.4)
+            self.press("Apply")
+            process_events(0.3)
+
+        self.check(begin)
+
+    def test_while_it_labels(self):
+        self.check(lambda panel: panel.form.preview.setChecked(True))
+
+    def test_with_a_preview(self):
+        def begin(panel):
+            panel.form.preview.setChecked(True)
+            self.assertTrue(wait_until(lambda: not panel.process))
+            panel._update_labels()
+
+        self.check(begin)
+
+
+class Gone(GuiTest):
+    def test_an_object_out_of_its_document_does_not_exist(self):
+        class Document:
+            """As in FreeCAD 1.0; 0.20 returns None."""
+
+            @staticmethod
+            def getObject(name):
+                if not isinstance(name, str):
+                    raise TypeError("must be str or int, not NoneType")
+
+        class Undone:
+            Name = None
+
+        Undone.Document = Document
+        self.assertFalse(task_panel._exists(Undone))
+        self.assertFalse(task_panel._exists(None))
+        self.assertTrue(task_panel._exists(self.box))
+        self.document.removeObject(self.box.Name)
+        self.assertFalse(task_panel._exists(self.box))

@@ -5,6 +5,17 @@ import FreeCADGui
 from . import commands, resources
 
 
+#: What an analysis needs beside the mesh; of the names that a command has had, the first is taken that FreeCAD knows.
+_FEM_COMMANDS = [
+    ("FEM_Analysis",),
+    ("FEM_MaterialSolid",),
+    ("FEM_ConstraintFixed",),
+    ("FEM_ConstraintForce",),
+    ("FEM_ConstraintPressure",),
+    ("FEM_SolverCalculixCxxtools", "FEM_SolverCalculiXCcxTools", "FEM_SolverCalculiX"),
+]
+
+
 class PolycubeWorkbench(FreeCADGui.Workbench):
     """Hexahedral meshes; the rest of an analysis is the FEM workbench's."""
 
@@ -13,13 +24,15 @@ class PolycubeWorkbench(FreeCADGui.Workbench):
     Icon = resources.icon("Polycube_Workbench")
 
     def Initialize(self):
-        import FemGui  # registers the FEM commands
+        import FemGui  # registers the commands of FEM that are written in C++
+        import femcommands.commands  # and those written in Python
 
-        del FemGui
-        fem = ["FEM_Analysis", "FEM_MaterialSolid", "FEM_ConstraintFixed", "FEM_ConstraintForce", "FEM_ConstraintPressure", "FEM_SolverCalculixCxxtools"]
-        fem = [name for name in fem if name in FreeCADGui.listCommands()]
-        self.appendToolbar("Polycube", commands.NAMES + (["Separator"] + fem if fem else []))
-        self.appendMenu("&Polycube", commands.NAMES + (["Separator"] + fem if fem else []))
+        del FemGui, femcommands
+        known = FreeCADGui.listCommands()
+        fem = [next((name for name in names if name in known), None) for names in _FEM_COMMANDS]
+        names = [*commands.NAMES, "Separator", *filter(None, fem)]
+        self.appendToolbar("Polycube", names)
+        self.appendMenu("&Polycube", names)
 
     def GetClassName(self):
         return "Gui::PythonWorkbench"

@@ -1,16 +1,19 @@
 """Workbench, command and task panel in a real window; run by gui.sh."""
 
 import os
+import time
 
+import Fem
 import FemGui
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
 import Part
 from gui_support import GuiTest, picture, process_events, wait_until
+from pivy import coin
 from PySide import QtCore, QtGui
 
-from freecad.polycube import commands, objects, task_panel
+from freecad.polycube import commands, fem_mesh, objects, quality_view, task_panel
 
 
 class Workbench(GuiTest):
@@ -164,6 +167,65 @@ class Panel(GuiTest):
         self.assertEqual(obj.Hexes, 500)
         self.assertEqual(obj.FemMesh.HexaCount, cells)
         self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+
+class QualityInColours(GuiTest):
+    """The nodes in the colours of the histogram, whatever the range of quality and the size of the mesh."""
+
+    def grid(self, cells, shear):
+        """A cube of `cells` cells along each edge, its layers pushed the farther along x the higher their y."""
+        points = cells + 1
+        mesh = Fem.FemMesh()
+        for number in range(points**3):
+            x, y, z = number % points, number // points % points, number // points**2
+            mesh.addNode(x + shear * y * y / cells, y, z, number + 1)
+        corners = [0, points, points + 1, 1]
+        for number in range(cells**3):
+            first = number % cells + points * (number // cells % cells) + points**2 * (number // cells**2) + 1
+            mesh.addVolume([first + corner for corner in corners] + [first + corner + points**2 for corner in corners], number + 1)
+        obj = self.document.addObject("Fem::FemMeshObject", "Grid")
+        obj.FemMesh = mesh
+        return obj
+
+    @staticmethod
+    def painted(view):
+        """The colours that the 3D view has for single nodes, each once."""
+        search = coin.SoSearchAction()
+        search.setType(coin.SoMaterial.getClassTypeId())
+        search.setInterest(coin.SoSearchAction.ALL)
+        search.setSearchingAll(True)
+        search.apply(view.RootNode)
+        paths = search.getPaths()
+        fields = [paths[i].getTail().diffuseColor for i in range(paths.getLength())]
+        return {tuple(round(channel, 3) for channel in colour.getValue()) for field in fields if field.getNum() > 1 for colour in field.getValues(0)}
+
+    def test_colours_are_those_of_the_bars(self):
+        for shear in (0, 0.4, 1.5, 4):
+            with self.subTest(shear=shear):
+                obj = self.grid(6, shear)
+                quality_view.paint(obj.ViewObject, obj.FemMesh)
+                bars = {quality_view.bar_of(quality) for quality in fem_mesh.node_quality(obj.FemMesh)[1]}
+                self.assertEqual(len(bars) > 1, shear > 0)
+                self.assertEqual(self.painted(obj.ViewObject), {tuple(round(channel, 3) for channel in quality_view.colour(bar)) for bar in bars})
+
+    def test_bars_differ_and_the_best_is_not_dark(self):
+        colours = [QtGui.QColor.fromRgbF(*quality_view.colour(bar)) for bar in range(quality_view.BARS)]
+        self.assertEqual(len({colour.rgb() for colour in colours}), quality_view.BARS)
+        self.assertEqual(colours[0].getRgb(), (255, 0, 0, 255))
+        self.assertGreater(colours[-1].blueF(), 0.9)
+        self.assertGreater(min(QtGui.qGray(colour.rgb()) for colour in colours), 75)
+
+    def test_time_grows_with_the_nodes_and_not_with_their_square(self):
+        def seconds(work):
+            begin = time.process_time()
+            made = work()
+            return time.process_time() - begin, made
+
+        building, obj = seconds(lambda: self.grid(46, 1))
+        self.assertGreater(obj.FemMesh.NodeCount, 100000)
+        painting, _ = seconds(lambda: quality_view.paint(obj.ViewObject, obj.FemMesh))
+        # 2 as measured; 80 with NodeColor
+        self.assertLess(painting / building, 10)
 
 
 class AxesOfFaces(GuiTest):

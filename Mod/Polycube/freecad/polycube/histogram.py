@@ -2,8 +2,7 @@
 
 from PySide import QtCore, QtGui
 
-#: bad to good: one colour per tenth of scaled Jacobian, blue-green for good as in most post-processors
-COLOURS = ["#b2182b", "#d6604d", "#f4a582", "#fddbc7", "#e6f5d0", "#b8e186", "#92c5de", "#4393c3", "#2166ac", "#053061"]
+from . import quality_view
 
 
 class Histogram(QtGui.QWidget):
@@ -31,7 +30,7 @@ class Histogram(QtGui.QWidget):
         for i, count in enumerate(self.counts if largest else []):
             tall = max(2, round(bars * count / largest)) if count else 0
             bar = QtCore.QRect(round(i * step) + 1, text + bars - tall, round(step) - 2, tall)
-            painter.fillRect(bar, QtGui.QColor(COLOURS[i]))
+            painter.fillRect(bar, QtGui.QColor.fromRgbF(*quality_view.colour(i)))
             if count:
                 painter.drawText(QtCore.QRect(round(i * step), text + bars - tall - text, round(step), text), QtCore.Qt.AlignCenter, str(count))
         painter.drawLine(0, text + bars, width, text + bars)

@@ -9,9 +9,9 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import api, engine, fem_mesh, job, label_view, objects, option_table, resources, shapes
+from . import api, engine, job, label_view, objects, option_table, quality_view, resources, shapes
 from .errors import Cancelled, PolycubeError, StageFailed
-from .histogram import COLOURS, Histogram
+from .histogram import Histogram
 
 _TITLE = "Hexahedral mesh"
 
@@ -425,9 +425,7 @@ class MeshPanel:
         if not wanted:
             self.obj.ViewObject.resetNodeColor()
             return
-        numbers, quality = fem_mesh.node_quality(self.obj.FemMesh)
-        shades = [QtGui.QColor(name).getRgbF()[:3] for name in COLOURS]
-        self.obj.ViewObject.NodeColor = {number: shades[min(max(int(10 * value), 0), 9)] for number, value in zip(numbers, quality)}
+        quality_view.paint(self.obj.ViewObject, self.obj.FemMesh)
 
     def _clear_marks(self):
         if not _exists(self.obj):

@@ -1,16 +1,19 @@
 """The public API and the document object, without a window."""
 
+import json
 import math
 import os
 import tempfile
 import unittest
+from fractions import Fraction
 
 import FreeCAD
+import numpy
 import Part
 from FreeCAD import Rotation, Vector
 
 from freecad import polycube
-from freecad.polycube import api, fem_mesh, job, objects, shapes
+from freecad.polycube import api, fem_mesh, job, objects, option_table, shapes
 
 
 def moved(shape, placement=None, scale=1.0):
@@ -92,15 +95,106 @@ class MeshArrays(unittest.TestCase):
             polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, cancel=lambda: True)
 
     def test_no_folder_is_left(self):
-        before = self.job_folders()
-        polycube.mesh(Part.makeBox(10, 10, 10), size=5)
-        with self.assertRaises(polycube.InvalidInput):
-            polycube.mesh(Part.makeBox(10, 10, 10), size=1e6)
-        self.assertEqual(self.job_folders(), before)
+        def stop(*_):
+            raise KeyboardInterrupt
 
-    @staticmethod
-    def job_folders():
-        return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-job-")}
+        box = Part.makeBox(10, 10, 10)
+        before = job_folders()
+        polycube.mesh(box, size=5)
+        for ending, options in (
+            (polycube.InvalidInput, {"size": 1e6}),
+            (polycube.InvalidInput, {"size": object()}),
+            (polycube.InvalidInput, {"sizes": {"Face1": object()}}),
+            (polycube.Cancelled, {"size": 0.2, "cancel": lambda: True}),
+            (polycube.Cancelled, {"size": 0.2, "time_limit": 0.1}),
+            (KeyboardInterrupt, {"size": 5, "progress": stop}),
+        ):
+            with self.subTest(options=options):
+                with self.assertRaises(ending):
+                    polycube.mesh(box, **options)
+                self.assertEqual(job_folders(), before)
+        for shape, options in ((box, {"size": object()}), (object(), {})):
+            with self.assertRaises((TypeError, AttributeError)):
+                job.Job(shape, options)
+            self.assertEqual(job_folders(), before)
+
+
+def job_folders():
+    return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-job-")}
+
+
+class Options(unittest.TestCase):
+    """What scripts give, in the ways that they have it: quantities, numbers of numpy, faces by number."""
+
+    Q = FreeCAD.Units.Quantity
+
+    def plain(self, **given):
+        return option_table.plain(given)
+
+    def test_quantities_are_taken_in_the_options_unit(self):
+        given = {
+            **{"size": self.Q("0.5 cm"), "time_limit": self.Q("2 min"), "feature_angle": self.Q("0.1 rad")},
+            **{"sizes": {"Face3": self.Q("500 um"), "X": self.Q("0.002 m")}, "hexes": self.Q("300"), "divisions": {"Edge2": self.Q("4")}},
+        }
+        plain = self.plain(**given)
+        self.assertAlmostEqual(plain.pop("feature_angle"), math.degrees(0.1))
+        self.assertEqual(plain.pop("sizes"), {"Face3": 0.5, "X": 2})
+        self.assertEqual(plain, {"size": 5, "time_limit": 120, "hexes": 300, "divisions": {"Edge2": 4}})
+
+    def test_a_quantity_of_another_kind_is_refused(self):
+        lengths = [option["name"] for option in polycube.options() if option["unit"] == "mm"]
+        self.assertEqual(sorted(lengths), ["size", "sizes"])
+        box = Part.makeBox(10, 10, 10)
+        for option, value, message in (
+            ("size", "5 kg", "size: 5.0 kg is not a length"),
+            ("size", "5 mm^2", "size: 5.0 mm^2 is not a length"),
+            ("sizes", "5 kg", "sizes: 5.0 kg is not a length"),
+            ("time_limit", "5 mm", "time_limit: 5.0 mm is not a time"),
+            ("feature_angle", "5 mm", "feature_angle: 5.0 mm is not an angle"),
+            ("hexes", "5 mm", "hexes: 5.0 mm is not a plain number"),
+        ):
+            with self.subTest(option=option, value=value):
+                value = self.Q(value)
+                for call in (polycube.mesh, polycube.labels):
+                    with self.assertRaises(polycube.InvalidInput) as caught:
+                        call(box, **{option: {"Face3": value} if option == "sizes" else value})
+                    self.assertEqual(str(caught.exception), message)
+
+    def test_numbers_of_any_type_and_faces_by_number(self):
+        for number in (numpy.float32(0.5), numpy.float64(0.5), Fraction(1, 2)):
+            self.assertEqual(self.plain(size=number, sizes={3: number}), {"size": 0.5, "sizes": {"Face3": 0.5}})
+        for number in (numpy.int64(4), 4, 4.0):
+            self.assertEqual(json.dumps(self.plain(hexes=number, divisions={"Edge1": number})), '{"hexes": 4, "divisions": {"Edge1": 4}}')
+        for three in (3, numpy.int32(3), "Face3"):
+            plain = self.plain(labels={three: "+X"}, sizes={three: 1}, keep_faces={three})
+            self.assertEqual(plain, {"labels": {"Face3": "+X"}, "sizes": {"Face3": 1}, "keep_faces": ["Face3"]})
+        self.assertEqual(self.plain(coarsest=numpy.bool_(True), size=None), {"coarsest": True})
+
+    def test_what_cannot_be_read_is_one_line(self):
+        for name in (option["name"] for option in polycube.options()):
+            for value in (object(), [object()], {object(): object()}, numpy.ones((3, 3))):
+                with self.subTest(option=name, value=type(value).__name__):
+                    if name == "frame" and isinstance(value, numpy.ndarray):
+                        continue
+                    with self.assertRaises(polycube.InvalidInput) as caught:
+                        self.plain(**{name: value})
+                    self.assertRegex(str(caught.exception), "^" + name + " is not [^\n]+$")
+
+    def test_sizes_reach_the_mesh_and_the_properties(self):
+        document = FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
+        box = document.addObject("Part::Box", "Box")
+        document.recompute()
+        plain = polycube.create_fem_mesh(box, size=5)
+        for sizes in ({"Face3": self.Q("1 mm")}, {3: 1}):
+            obj = polycube.create_fem_mesh(box, size=5, sizes=sizes)
+            self.assertGreater(obj.Hexahedra, plain.Hexahedra)
+            self.assertEqual(float(obj.Sizes.split("=")[1]), 1)
+            self.assertEqual(obj.Sizes.split("=")[0], "Face3")
+            self.assertEqual(obj.MeshState, objects.CURRENT)
+            cells = obj.Hexahedra
+            polycube.update_fem_mesh(obj)
+            self.assertEqual(obj.Hexahedra, cells)
 
 
 class Labels(unittest.TestCase):
@@ -232,6 +326,11 @@ class BadInput(DocumentTest):
 
     def test_labels(self):
         self.assertIn("Face99", self.check(self.box(), labels={"Face99": "+X"}))
+
+    def test_an_analysis_that_is_none(self):
+        box = self.box()
+        for analysis in ("Analysis", 3, box):
+            self.assertIn("analysis", self.check(box, analysis=analysis))
 
     def test_not_a_shape(self):
         with self.assertRaises(polycube.InvalidInput):

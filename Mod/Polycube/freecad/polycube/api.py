@@ -17,7 +17,7 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     """All-hexahedral mesh of one solid.
 
     shape_or_object: Part.Shape, or a document object that has one.
-    size: edge length in mm; None is the bounding box's diagonal / 30. order: 1 or 2. `more`: see options().
+    size: edge length in mm or as a FreeCAD.Units.Quantity; None is the bounding box's diagonal / 30. order: 1 or 2. `more`: see options().
     progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
     Returns a MeshResult (arrays and report). Raises InvalidInput, StageFailed, Cancelled.
     """
@@ -33,9 +33,8 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
 
 
 def _run(what, shape_or_object, given, progress, log, cancel):
-    from . import job, option_table, shapes
+    from . import job, shapes
 
-    option_table.check_names(given)
     if "size" in given and not (isinstance(given["size"], Real) and given["size"] > 0):
         raise InvalidInput("size {} is not a positive length in mm".format(given["size"]))
     shape = shapes.shape_of(shape_or_object)
@@ -52,6 +51,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     from . import objects
 
     _check_object(part)
+    if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
+        raise InvalidInput("analysis is not an analysis object of the document")
     given = _given(size=size, order=order, **more)
     result = mesh(part, progress=progress, log=log, cancel=cancel, **with_constraints(given, part, analysis))
     with transaction(part.Document, "Hexahedral mesh from shape"):
@@ -82,7 +83,7 @@ def with_constraints(options, part, analysis):
     kept = options.get("keep_faces") or []
     if isinstance(kept, str):
         kept = [name for name in kept.replace(" ", "").split(",") if name]
-    names = ["Face{}".format(face) if isinstance(face, int) else face for face in kept]
+    names = list(kept)
     names += [name for name in fem_mesh.constrained_faces(part, analysis) if name not in names]
     return {**options, "keep_faces": ",".join(names)} if names else options
 
@@ -109,16 +110,9 @@ def transaction(document, name):
 
 
 def _given(**values):
-    """The options that were given, as JSON can hold them: quantities of FreeCAD as plain numbers in mm, labels by name, the frame's vectors as lists."""
-    given = {name: getattr(value, "Value", value) for name, value in values.items() if value is not None}
-    if isinstance(given.get("labels"), dict):
-        given["labels"] = {"Face{}".format(face) if isinstance(face, int) else face: axis for face, axis in given["labels"].items()}
-    if "frame" in given and not isinstance(given["frame"], str):
-        try:
-            given["frame"] = [[float(number) for number in axis] for axis in given["frame"]]
-        except (TypeError, ValueError):
-            raise InvalidInput("frame is not a pair of directions such as ((1, 0, 0), (0, 1, 0))") from None
-    return given
+    from . import option_table
+
+    return option_table.plain(values)
 
 
 def _check_object(part):

@@ -24,10 +24,14 @@ class Job:
     def __init__(self, shape, options, what="mesh"):
         self.what = what
         self.folder = tempfile.mkdtemp(prefix="polycube-job-")
-        with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
-            file.write(shape.exportBrepToString())
-        with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:
-            json.dump(options, file)
+        try:
+            with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
+                file.write(shape.exportBrepToString())
+            with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:
+                json.dump(options, file)
+        except BaseException:
+            self.close()
+            raise
 
     def __enter__(self):
         return self

@@ -1,4 +1,8 @@
-"""Options as FreeCAD properties, made from the engine's table."""
+"""Options as scripts give them and as FreeCAD properties, made from the engine's table."""
+
+from numbers import Integral, Real
+
+import FreeCAD
 
 from . import engine
 from .errors import InvalidInput
@@ -10,6 +14,13 @@ _NOT_IN_FREECAD = {"element_type"}
 _ORDERS = ["1st", "2nd"]
 #: FreeCAD 0.20 has no property for times.
 _UNITS = {"mm": "App::PropertyLength", "degrees": "App::PropertyAngle"}
+#: What a quantity has to be for an option of this unit; the value that FreeCAD keeps inside is in the option's unit then.
+_DIMENSIONS = {
+    "mm": (FreeCAD.Units.Length, "a length"),
+    "degrees": (FreeCAD.Units.Angle, "an angle"),
+    "s": (FreeCAD.Units.TimeSpan, "a time"),
+    "": (FreeCAD.Units.Unit(), "a plain number"),
+}
 
 
 def table():
@@ -33,6 +44,66 @@ def check_names(options):
     for name in options:
         if name not in known:
             raise InvalidInput("unknown option '{}'; options are {}".format(name, ", ".join(known)))
+
+
+def plain(options):
+    """The options that are not None, as JSON can hold them: quantities and numpy's numbers as plain ones in the option's unit, faces by name."""
+    options = {name: value for name, value in options.items() if value is not None}
+    check_names(options)
+    return {option["name"]: _plain(option, options[option["name"]]) for option in table() if option["name"] in options}
+
+
+def _plain(option, value):
+    name, kind = option["name"], option["type"]
+    if isinstance(value, str):
+        return value
+    try:
+        if kind == "labels":
+            return {_face(face): str(axis) for face, axis in value.items()}
+        if kind in ("sizes", "divisions"):
+            return {_face(what): amount if isinstance(amount, str) else _number(option, amount) for what, amount in value.items()}
+        if kind == "faces":
+            return [_face(face) for face in value]
+        if kind == "frame":
+            return [[float(number) for number in axis] for axis in value]
+        return _number(option, value)
+    except InvalidInput:
+        raise
+    except (TypeError, ValueError, AttributeError):
+        wanted = {
+            "labels": 'faces with their axes such as {"Face3": "+X"}',
+            "sizes": 'faces or axes with their sizes such as {"Face3": 0.5, "X": 2}',
+            "divisions": 'edges or pairs of faces with their elements such as {"Edge4": 6, "Face1-Face2": "3.."}',
+            "faces": 'faces such as ["Face3", "Face7"]',
+            "frame": "a pair of directions such as ((1, 0, 0), (0, 1, 0))",
+            "bool": "True or False",
+        }
+        raise InvalidInput("{} is not {}".format(name, wanted.get(kind, "a number"))) from None
+
+
+def _face(face):
+    """The name of a face that may be given by its number; other names as they are."""
+    if isinstance(face, Integral):
+        return "Face{}".format(face)
+    if isinstance(face, str):
+        return face
+    raise TypeError
+
+
+def _number(option, value):
+    """A plain number of what may be a quantity; a TypeError for what is no number, InvalidInput for a quantity of another kind."""
+    if isinstance(value, FreeCAD.Units.Quantity):
+        dimension, meaning = _DIMENSIONS[option["unit"]]
+        # without a unit it is a number like any other
+        if value.Unit not in (dimension, FreeCAD.Units.Unit()):
+            raise InvalidInput("{}: {} is not {}".format(option["name"], value, meaning))
+        value = value.Value
+    if option["type"] == "bool" and value in (True, False):
+        return bool(value)
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError
+    whole = isinstance(value, Integral) or (option["type"] != "double" and float(value).is_integer())
+    return int(value) if whole else float(value)
 
 
 def add_properties(obj):
@@ -96,15 +167,15 @@ def write(obj, options):
         if option["name"] == "order":
             value = _ORDERS[value - 1]
         elif option["type"] == "labels":
-            value = ["{}={}".format(face if isinstance(face, str) else "Face{}".format(face), axis) for face, axis in dict(value or {}).items()]
+            value = ["{}={}".format(face, axis) for face, axis in dict(value or {}).items()]
         elif option["type"] == "frame":
             # as on the command line: X / Y
             value = value if isinstance(value, str) else "/".join(",".join(repr(float(number)) for number in axis) for axis in value)
         elif isinstance(value, dict):
             # divisions and sizes, as on the command line
-            value = ",".join("{}={}".format(what if isinstance(what, str) else "Face{}".format(what), value[what]) for what in value)
+            value = ",".join("{}={}".format(what, value[what]) for what in value)
         elif option["type"] == "faces" and not isinstance(value, str):
-            value = ",".join("Face{}".format(face) if isinstance(face, int) else face for face in value)
+            value = ",".join(value)
         if _current(obj, option) != value:
             setattr(obj, property_name(option), value)
 

@@ -330,6 +330,64 @@ class AxesOfFaces(GuiTest):
         self.assertEqual(self.panel.labels, {})
 
 
+class InAContainer(GuiTest):
+    """A solid in a moved App::Part, and the container itself as the part."""
+
+    def setUp(self):
+        super().setUp()
+        self.container = self.document.addObject("App::Part", "Container")
+        self.container.addObject(self.box)
+        self.container.Placement = FreeCAD.Placement(FreeCAD.Vector(90, 30, 10), FreeCAD.Rotation(FreeCAD.Vector(0, 0, 1), 30))
+        self.document.recompute()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+
+    def mesh(self, part):
+        panel = self.open_panel(part)
+        self.assertIn("0 is automatic", panel.form.size_hint.text())
+        panel.form.element_size.setProperty("rawValue", 10.0)
+        panel.form.preview.setChecked(True)
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertTrue(panel.shown_labels.valid)
+        picture("container-labels-" + part.Name)
+        asked = []
+        panel.face_clicked = panel.clicks._clicked = asked.append
+        FreeCADGui.Selection.addSelection(self.document.Name, self.container.Name, self.box.Name + ".Face3")
+        process_events(0.3)
+        self.assertEqual(asked, [3], "a click as the 3D view tells of it")
+        panel._select(["Face2"])
+        (selected,) = FreeCADGui.Selection.getSelectionEx()
+        self.assertEqual((selected.Object, selected.SubElementNames), (self.box, ("Face2",)))
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertIsNotNone(panel.obj, panel.form.log.toPlainText())
+        picture("container-mesh-" + part.Name)
+        return panel.obj
+
+    def test_the_mesh_stands_where_the_part_stands(self):
+        for part in (self.box, self.container):
+            obj = self.mesh(part)
+            box = obj.FemMesh.BoundBox
+            standing = self.box.Shape.transformed(self.container.Placement.Matrix).BoundBox
+            for name in ("XMin", "XMax", "YMin", "YMax", "ZMin", "ZMax"):
+                self.assertAlmostEqual(getattr(box, name), getattr(standing, name), delta=1e-6)
+            self.assertTrue(obj.ViewObject.isVisible())
+            self.assertFalse(self.box.ViewObject.isVisible())
+            self.press("Ok")
+            self.assertEqual(obj.MeshState, objects.CURRENT)
+            obj.ViewObject.hide()
+
+    def test_an_analysis_inside(self):
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        self.container.addObject(analysis)
+        FemGui.setActiveAnalysis(analysis)
+        obj = self.mesh(self.container)
+        self.assertIn(obj, analysis.Group)
+        self.assertTrue(self.container.ViewObject.isVisible())
+        self.assertAlmostEqual(obj.FemMesh.BoundBox.XMin, 0, delta=1e-6)
+        self.press("Ok")
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+
+
 class RefusedShapes(GuiTest):
     def test_two_solids_open_a_message_and_no_panel(self):
         two = self.document.addObject("Part::Feature", "Two")

@@ -3,6 +3,7 @@
 from contextlib import contextmanager
 from numbers import Real
 
+from . import shapes
 from .errors import InvalidInput
 
 
@@ -16,12 +17,12 @@ def options():
 def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=None, **more):
     """All-hexahedral mesh of one solid.
 
-    shape_or_object: Part.Shape, or a document object that has one.
+    shape_or_object: Part.Shape, or a document object that has one, meshed where it stands in the 3D view.
     size: edge length in mm or as a FreeCAD.Units.Quantity; None is the bounding box's diagonal / 30. order: 1 or 2. `more`: see options().
     progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
     Returns a MeshResult (arrays and report). Raises InvalidInput, StageFailed, Cancelled.
     """
-    return _run("mesh", shape_or_object, _given(size=size, order=order, **more), progress, log, cancel)
+    return _run("mesh", shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
 
 
 def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
@@ -29,15 +30,14 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
 
     Arguments and errors as for mesh(). `labels={"Face12": "+X"}` sets the axis of CAD faces, `frame=((1, 0, 0), (0, 1, 0))` the directions of X and Y.
     """
-    return _run("labels", shape_or_object, _given(**more), progress, log, cancel)
+    return _run("labels", shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
 
 
-def _run(what, shape_or_object, given, progress, log, cancel):
-    from . import job, shapes
+def _run(what, shape, given, progress, log, cancel):
+    from . import job
 
     if "size" in given and not (isinstance(given["size"], Real) and given["size"] > 0):
         raise InvalidInput("size {} is not a positive length in mm".format(given["size"]))
-    shape = shapes.shape_of(shape_or_object)
     shapes.check_solid(shape)
     with job.Job(shape, given, what) as work:
         return job.run(work, progress, log, cancel)
@@ -54,7 +54,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
         raise InvalidInput("analysis is not an analysis object of the document")
     given = _given(size=size, order=order, **more)
-    result = mesh(part, progress=progress, log=log, cancel=cancel, **with_constraints(given, part, analysis))
+    shape = shapes.shape_of(part, beside=analysis)
+    result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
     with transaction(part.Document, "Hexahedral mesh from shape"):
         obj = objects.make(part.Document, part, name)
         if analysis:
@@ -70,7 +71,8 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None):
     part = objects.part_of(obj)
     _check_object(part)
     given = option_table.read(obj)
-    result = mesh(part, progress=progress, log=log, cancel=cancel, **with_constraints(given, part, objects.analysis_of(obj)))
+    shape = shapes.shape_of(part, beside=obj)
+    result = _run("mesh", shape, with_constraints(given, part, objects.analysis_of(obj)), progress, log, cancel)
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given))
     return obj

@@ -36,11 +36,11 @@ class MeshFromShape:
 
     @staticmethod
     def _selected():
-        """The one selected object with a shape, or None."""
+        """The one selected object that may have a solid, or None."""
         if not FreeCAD.ActiveDocument:
             return None
         chosen = FreeCADGui.Selection.getSelection()
-        return chosen[0] if len(chosen) == 1 and hasattr(chosen[0], "Shape") and not chosen[0].isDerivedFrom("Fem::FemMeshObject") else None
+        return chosen[0] if len(chosen) == 1 and shapes.has_shape(chosen[0]) and not chosen[0].isDerivedFrom("Fem::FemMeshObject") else None
 
 
 def _active_analysis(document):

@@ -1,10 +1,12 @@
 """A Fem.FemMesh from the arrays, and the groups that FreeCAD's solvers look for."""
 
-from . import engine
+from . import engine, shapes
 
 #: Constraints that FreeCAD 0.20 silently leaves out on hexahedra: its own search knows tetrahedra only.
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
 
+#: Constraints that load faces of the mesh.
+_FACE_LOADS = {"Fem::ConstraintForce": "force", "Fem::ConstraintPressure": "pressure"}
 
 #: right-handed neighbours of the eight corners in SMESH's order, which winds the other way than VTK's
 _SMESH_NEIGHBOURS = [[3, 1, 4], [0, 2, 5], [1, 3, 6], [2, 0, 7], [5, 7, 0], [6, 4, 1], [7, 5, 2], [4, 6, 3]]
@@ -84,53 +86,65 @@ def add_constraint_groups(mesh, result, part, analysis):
         elif member.isDerivedFrom("Fem::Constraint"):
             references = _references(member, part)
             warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name in lost]
-            references = [name for name in references if name in result.groups and not name.startswith("Solid")]
+            references = {name: obj for name, obj in references.items() if name in result.groups and not name.startswith("Solid")}
             nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
-            if references and set(nodes) - _found(mesh, part, references):
+            if references and set(nodes) - _found(mesh, references):
                 node_groups.append((member.Name + "_Nodes", nodes))
-            if member.isDerivedFrom("Fem::ConstraintForce"):
-                warnings += _lost_force(mesh, result, part, member, references)
+            for kind, load in _FACE_LOADS.items():
+                if member.isDerivedFrom(kind):
+                    warnings += _lost_load(mesh, result, member, references, load)
     # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
         add_group(mesh, name, "Node", nodes)
     if len(materials) > 1:
         for material in sorted(materials, key=lambda member: (len(member.Name), member.Name)):
-            if any(obj == part for obj, _ in material.References):
+            if any(obj in _same_solid(part) for obj, _ in material.References):
                 add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
     return warnings
 
 
-def _lost_force(mesh, result, part, member, references):
-    """FreeCAD finds the mesh faces that carry a force by geometry alone, groups do not help it."""
-    for name in references:
+def _lost_load(mesh, result, member, references, load):
+    """FreeCAD finds the mesh faces that carry a load by geometry alone, groups do not help it."""
+    for name, obj in references.items():
         if name.startswith("Face"):
-            found, there = len(mesh.getFacesByFace(part.Shape.getElement(name))), len(result.groups[name]["quads"])
+            found, there = len(mesh.getFacesByFace(obj.Shape.getElement(name))), len(result.groups[name]["quads"])
             if found < there:
-                yield "{}: FreeCAD finds {} of the {} mesh faces on {}, part of the force gets lost".format(member.Label, found, there, name)
+                yield "{}: FreeCAD finds {} of the {} mesh faces on {}, {} the {} gets lost".format(
+                    member.Label, found, there, name, "part of" if found else "all of", load
+                )
+
+
+def _same_solid(part):
+    """The objects by which the part's entities may be referred to: itself and, of a container, what is inside."""
+    return (part, shapes.solid_object(part))
 
 
 def _references(member, part):
-    """Names of the part's entities that a constraint refers to."""
-    return [name for obj, names in getattr(member, "References", []) if obj == part for name in names if name]
+    """The part's entities that a constraint refers to: their names, and the object by which it does."""
+    objects = _same_solid(part)
+    return {name.split(".")[-1]: obj for obj, names in getattr(member, "References", []) if obj in objects for name in names if name}
 
 
 def constrained_faces(part, analysis):
     """Names of the part's faces that carry constraints of the analysis, or have an edge or vertex that does; no mesh may do without them."""
-    faces = part.Shape.Faces
+    shape = getattr(shapes.solid_object(part), "Shape", None)
+    if not shape or not analysis:
+        return []
+    faces = shape.Faces
     found = set()
-    for member in analysis.Group if analysis else ():
+    for member in analysis.Group:
         if not member.isDerivedFrom("Fem::Constraint"):
             continue
         for name in _references(member, part):
             if name.startswith("Face"):
                 found.add(int(name[4:]))
             elif not name.startswith("Solid"):
-                around = part.Shape.ancestorsOfType(part.Shape.getElement(name), type(faces[0]))
+                around = shape.ancestorsOfType(shape.getElement(name), type(faces[0]))
                 found.update(number for number, face in enumerate(faces, 1) if any(face.isSame(other) for other in around))
     return ["Face{}".format(number) for number in sorted(found)]
 
 
-def _found(mesh, part, names):
-    """Node numbers that FreeCAD's search finds on these entities."""
+def _found(mesh, references):
+    """Node numbers that FreeCAD's search finds on these entities: it looks where they are in their container, not where that stands."""
     search = {"Face": mesh.getNodesByFace, "Edge": mesh.getNodesByEdge, "Vertex": mesh.getNodesByVertex}
-    return {node for name in names for node in search[name.rstrip("0123456789")](part.Shape.getElement(name))}
+    return {node for name, obj in references.items() for node in search[name.rstrip("0123456789")](obj.Shape.getElement(name))}

@@ -24,10 +24,13 @@ def _depth(forward):
 
 
 class LabelOverlay:
-    """Coloured triangles over the part in the active 3D view. Clicks go through to the part."""
+    """Coloured triangles over the part in the active 3D view. Clicks go through to the part. `standing`: placement of the labels' coordinates."""
 
-    def __init__(self, document):
+    def __init__(self, document, standing):
         self._root = FreeCADGui.getDocument(document.Name).activeView().getSceneGraph()
+        self._standing = coin.SoTransform()
+        self._standing.translation = tuple(standing.Base)
+        self._standing.rotation = standing.Rotation.Q
         self._node = coin.SoSeparator()
         self._root.addChild(self._node)
 
@@ -38,7 +41,7 @@ class LabelOverlay:
         unpickable.style = coin.SoPickStyle.UNPICKABLE
         points = coin.SoCoordinate3()
         points.point.setValues(0, len(labels.points), labels.points.tolist())
-        for child in (unpickable, points, _depth(_FACES_FORWARD), *self._faces(labels), _depth(_LINES_FORWARD), *self._borders(labels)):
+        for child in (unpickable, self._standing, points, _depth(_FACES_FORWARD), *self._faces(labels), _depth(_LINES_FORWARD), *self._borders(labels)):
             self._node.addChild(child)
 
     @staticmethod

@@ -80,7 +80,7 @@ def set_mesh(obj, result, options):
     obj.MeshVolume = result.report["volume"]["mesh"]
     obj.Report = json.dumps(result.report)
     obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
-    obj.MeshedShape = shapes.signature(part_of(obj).Shape)
+    obj.MeshedShape = shapes.signature(shapes.shape_of(part_of(obj), obj))
     obj.MeshState = CURRENT
     return warnings
 
@@ -92,10 +92,10 @@ def state(obj):
     part = part_of(obj)
     try:
         same_options = obj.MeshedOptions == json.dumps(option_table.read(obj), sort_keys=True)
-    except InvalidInput:
-        same_options = False
-    if part and same_options and shapes.same(list(obj.MeshedShape), shapes.signature(part.Shape)):
-        return CURRENT
+        if part and same_options and shapes.same(list(obj.MeshedShape), shapes.signature(shapes.shape_of(part, obj))):
+            return CURRENT
+    except InvalidInput:  # of an option or of the shape
+        pass
     return OUTDATED
 
 
@@ -124,7 +124,7 @@ class PolycubeMesh(Stateless):
 
     def _add_properties(self, obj):
         if "Part" not in obj.PropertiesList and not obj.isDerivedFrom("Fem::FemMeshShapeBaseObject"):
-            obj.addProperty("App::PropertyLink", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
+            obj.addProperty("App::PropertyLinkGlobal", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
         option_table.add_properties(obj)
         for kind, name, group, meaning in _RESULTS:
             if not hasattr(obj, name):
@@ -150,3 +150,20 @@ class PolycubeMesh(Stateless):
             self._add_properties(obj)
         except ImportError as error:
             FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, error))
+
+
+class _Moves:
+    """Marks meshes whose part is moved by a container around it, or gets into another: FreeCAD recomputes what is linked to the container only."""
+
+    def slotChangedObject(self, container, name):
+        if name not in ("Placement", "Group", "ElementList") or container.Document.Restoring or not shapes.is_container(container):
+            return
+        for document in FreeCAD.listDocuments().values():
+            for obj in filter(is_polycube, document.findObjects("Fem::FemMeshObject")):
+                if not document.Recomputing:
+                    obj.touch()
+                else:
+                    obj.Proxy.execute(obj)  # its turn may be over
+
+
+FreeCAD.addDocumentObserver(_Moves())

@@ -1,16 +1,109 @@
-"""The shape of a document object: is it one solid, and is it still the one that was meshed?"""
+"""The shape of a document object: where it stands, is it one solid, and is it still the one that was meshed?"""
 
 from .errors import InvalidInput
 
 RELATIVE_TOLERANCE = 1e-7
 
 
-def shape_of(thing):
-    """The Part.Shape of a shape or of a document object that has one. Raises InvalidInput."""
-    shape = getattr(thing, "Shape", thing)
-    if not hasattr(shape, "exportBrepToString"):
-        raise InvalidInput("{} has no shape".format(getattr(thing, "Label", None) or type(thing).__name__))
+def shape_of(thing, beside=None):
+    """The Part.Shape of a shape, or of a document object as it stands in the 3D view, whatever containers and links it is in. Raises InvalidInput.
+
+    With `beside`, a document object, the coordinates are those of the container that this one is in: what is made of the shape stands right there.
+    """
+    import FreeCAD
+    import Part
+
+    if not hasattr(thing, "Document"):
+        if not isinstance(thing, Part.Shape):
+            raise InvalidInput("{} has no shape".format(type(thing).__name__))
+        return thing
+    inside = solid_objects(thing)
+    if not inside:
+        raise InvalidInput("{} has no solid inside".format(thing.Label))
+    found = [_standing_shape(part, beside) for part in inside]
+    return found[0] if len(found) == 1 else Part.makeCompound(found)
+
+
+def _standing_shape(part, beside):
+    import FreeCAD
+    import Part
+
+    placement = standing(part)
+    if beside:
+        placement = standing(beside).inverse().multiply(placement)
+    # A shape that is moved by nothing stays what it is to the last bit.
+    if part.isDerivedFrom("Part::Feature") and placement == FreeCAD.Placement():
+        return part.Shape
+    shape = Part.getShape(part)
+    if shape.isNull() and not hasattr(part, "Shape"):
+        raise InvalidInput("{} has no shape".format(part.Label))
+    if not shape.isNull():
+        shape.Placement = placement.multiply(shape.Placement)
     return shape
+
+
+def has_shape(obj):
+    """Whether a document object may have a solid of its own or inside."""
+    return hasattr(obj, "Shape") or is_container(obj)
+
+
+def is_container(obj):
+    """Whether an object places those inside it: App::Part, a body, a group of links."""
+    return obj.hasExtension("App::GeoFeatureGroupExtension") or bool(_elements(obj))
+
+
+def container_of(obj):
+    """The container that the object stands in, or None."""
+    around = obj.getParentGeoFeatureGroup() or next((parent for parent in obj.InList if obj in _elements(parent)), None)
+    group = None if around else obj.getParentGroup()
+    return container_of(group) if group else around
+
+
+def standing(obj):
+    """The placement of the coordinates that the object's own placement refers to."""
+    import FreeCAD
+
+    around = container_of(obj)
+    return standing(around).multiply(around.Placement) if around else FreeCAD.Placement()
+
+
+def selection_path(obj):
+    """(object at the top of the document, names from there with a point after each), as the selection wants them of an object in containers."""
+    around = container_of(obj)
+    if not around:
+        return obj, ""
+    top, path = selection_path(around)
+    return top, path + obj.Name + "."
+
+
+def solid_object(part):
+    """The object whose faces the names Face1, Face2 ... of a mesh of `part` number: of a container with one solid inside, the object of that."""
+    inside = solid_objects(part)
+    return inside[0] if len(inside) == 1 else part
+
+
+def solid_objects(part):
+    """The objects with solids inside a container, the part itself if it is none. What another of them was made of, and is hidden, does not count."""
+    import Part
+
+    members = _members(part)
+    if members is None:
+        return [part]
+    inside = {member.Name: member for child in members for member in solid_objects(child) if Part.getShape(member).Solids}
+    used = {used.Name for member in inside.values() for used in member.OutListRecursive}
+    return [member for member in inside.values() if member.Visibility or member.Name not in used]
+
+
+def _members(obj):
+    """What is inside a container that has no shape of its own; None of other objects."""
+    if obj.isDerivedFrom("App::Part") or obj.isDerivedFrom("App::DocumentObjectGroup"):
+        return obj.Group
+    return _elements(obj) or None
+
+
+def _elements(obj):
+    """The elements of a group of links."""
+    return obj.ElementList if obj.isDerivedFrom("App::LinkGroup") else []
 
 
 def check_solid(shape):

@@ -10,7 +10,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from . import api, engine, job, label_view, objects, option_table, quality_view, resources, shapes
-from .errors import Cancelled, PolycubeError, StageFailed
+from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .histogram import Histogram
 
 _TITLE = "Hexahedral mesh"
@@ -138,7 +138,7 @@ class MeshPanel:
         try:
             if not _exists(self.part):
                 raise PolycubeError("there is no part to mesh")
-            shape = shapes.shape_of(self.part)
+            shape = shapes.shape_of(self.part, self._beside())
             shapes.check_solid(shape)
             self.job = job.Job(shape, options, what)
             program, *arguments = self.job.command()
@@ -163,6 +163,10 @@ class MeshPanel:
         self.log("{} {} ...".format(message, self.part.Label))
         self.timer.start()
         self.process.start(program, arguments)
+
+    def _beside(self):
+        """What the mesh will be beside: its object or its analysis, as far as there are any."""
+        return next(filter(_exists, (self.obj, self.analysis)), None)
 
     def cancel(self):
         """Kills the mesher; the panel stays."""
@@ -240,7 +244,7 @@ class MeshPanel:
             self.log("Warning: " + line, error=True)
         self.log("{} cells, {} nodes.".format(len(result.hexes), len(result.nodes)))
         self.obj.ViewObject.show()
-        self.part.ViewObject.hide()
+        shapes.solid_object(self.part).ViewObject.hide()  # not its container, the mesh may be in that too
         self._show_quality()
 
     def _close_job(self):
@@ -274,11 +278,12 @@ class MeshPanel:
         if not wanted:
             self._end_preview()
         elif _exists(self.part):
-            self.part.ViewObject.show()
+            self._show_part()
             if _exists(self.obj):
                 self.obj.ViewObject.hide()
-            self.overlay = label_view.LabelOverlay(self.part.Document)
-            self.clicks = label_view.FaceClicks(self.part, self.face_clicked)
+            beside = self._beside()
+            self.overlay = label_view.LabelOverlay(self.part.Document, shapes.standing(beside) if beside else FreeCAD.Placement())
+            self.clicks = label_view.FaceClicks(shapes.solid_object(self.part), self.face_clicked)
             self._update_labels()
 
     def _end_preview(self):
@@ -362,10 +367,14 @@ class MeshPanel:
         self.form.hexes.setValue(self.options.get("hexes", 0))
         self.form.order.setCurrentIndex(self.options.get("order", 2) - 1)
         self._list_labels()
-        if self.part and not self.part.Shape.isNull():
-            automatic = self.part.Shape.BoundBox.DiagonalLength / 30
-            length = FreeCAD.Units.Quantity(automatic, FreeCAD.Units.Length).UserString
-            self.form.size_hint.setText("0 is automatic: {}".format(length))
+        try:
+            shape = shapes.shape_of(self.part)
+        except InvalidInput:  # Apply tells
+            return
+        if shape.isNull():
+            return
+        length = FreeCAD.Units.Quantity(shape.BoundBox.DiagonalLength / 30, FreeCAD.Units.Length).UserString
+        self.form.size_hint.setText("0 is automatic: {}".format(length))
 
     def _parameters(self):
         """The options as the panel shows them, without defaults; the advanced ones come from the object's properties."""
@@ -435,13 +444,18 @@ class MeshPanel:
         if self.form.colours.isChecked():
             self.obj.ViewObject.resetNodeColor()
 
+    def _show_part(self):
+        for obj in (self.part, shapes.solid_object(self.part)):
+            obj.ViewObject.show()
+
     def _select(self, entities):
         """Shows the CAD entities at fault in the 3D view."""
         if entities:
-            self.part.ViewObject.show()
+            self._show_part()
             FreeCADGui.Selection.clearSelection()
+            top, path = shapes.selection_path(shapes.solid_object(self.part))
             for name in entities:
-                FreeCADGui.Selection.addSelection(self.part, name)
+                FreeCADGui.Selection.addSelection(top, path + name)
 
 
 def _shape_line(quality):

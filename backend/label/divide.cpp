@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -14,6 +15,11 @@ namespace {
 
 // A plane takes the label of an axis only if its normal has this share of it.
 constexpr double kLeastShare = 0.2;
+
+// A face whose normals are all within this of their mean, along any axis, is none that bends (guess: 6 degrees).
+constexpr double kLeastTurn = 0.1;
+// Where a bent face is divided, as shares of its extent: in the middle for a lens, near an end for the trailing edge of a wing.
+constexpr std::array kBentShares{0.5, 0.3, 0.7, 0.15, 0.85};
 
 // From the vertex to the middle of the face, in the frame.
 Vec3 way_to_middle(const TetMesh& mesh, int face, const Vec3& vertex, const Mat3& frame) {
@@ -119,6 +125,16 @@ std::vector<FaceCut> plane_cuts(const Vec3& normal) {
     const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
     for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share, false});
   }
+  return cuts;
+}
+
+std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning) {
+  int own = 0;
+  mean.cwiseAbs().maxCoeff(&own);
+  const int k = turning[(own + 1) % 3] > turning[(own + 2) % 3] ? (own + 1) % 3 : (own + 2) % 3;
+  std::vector<FaceCut> cuts;
+  if (turning[k] < kLeastTurn) return cuts;
+  for (double share : kBentShares) cuts.push_back({Vec3::Unit(k), share, false});
   return cuts;
 }
 

@@ -8,7 +8,7 @@
 
 namespace polycube {
 
-/// A straight cut through an oblique plane: `share` of its extent along `across` lies below. The usual way where `across` is zero.
+/// A straight cut through an oblique plane or a bent face: `share` of its extent along `across` lies below. The usual way where `across` is zero.
 struct FaceCut {
   Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
   double share = 0.5;
@@ -22,6 +22,10 @@ double third_side(const Vec3& normal, const Vec3& way, int part, int other);
 
 /// Ways to divide an oblique plane with this normal (in the frame) so that each part can face an axis of its own.
 std::vector<FaceCut> plane_cuts(const Vec3& normal);
+
+/// Ways to divide a bent face (a side of a lens, of a wing) across the axis along which its normal turns, so that one part can face that axis. `mean`: its mean
+/// normal, `turning`: how far its normals are from it along each axis, both in the frame.
+std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning);
 
 /// Faces that end in a point (CadEdge::tip), divided in four round the axis nearest to the tip's direction, and half way up to
 /// the tip: like the side of a pyramid they may have to take other labels at the tip than below.

@@ -27,9 +27,9 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
     if (s_.has_tip(f)) continue;
     if (barrel(f)) {
       slope_[f] = s_.frame * s_.model.face(barrel_[f]).axis;
-    } else if (s_.flat[f] && slope_[f].isZero() && s_.normal[t].cwiseAbs().maxCoeff() <= kLevelCosine) {
+    } else if (!s_.cuts[f].across.isZero()) {
       slope_[f] = s_.cuts[f].across;
-      if (sloping(f)) continue;
+    } else if (s_.flat[f] && slope_[f].isZero() && s_.normal[t].cwiseAbs().maxCoeff() <= kLevelCosine) {
       int axis = 0;
       s_.normal[t].cwiseAbs().maxCoeff(&axis);
       slope_[f] = (Vec3::Unit(axis) - s_.normal[t][axis] * s_.normal[t]).normalized();

@@ -412,12 +412,29 @@ bool label_changes_at_tip(const Plan& plan) {
   return std::any_of(labels.begin(), labels.end(), [](const auto& tip) { return tip.second.size() > 1; });
 }
 
+// The ways to divide a face at fault.
+std::vector<FaceCut> cuts_of(const Plan& plan, int face) {
+  const Setup& s = plan.setup;
+  if (s.has_tip(face) || plan.half->barrel(face)) return {};
+  if (s.model.face(face).kind == SurfaceKind::kPlane) return plan.half->sloping(face) ? plane_cuts(s.frame * s.model.face(face).axis) : std::vector<FaceCut>{};
+  Vec3 mean = Vec3::Zero(), turning = Vec3::Zero();
+  for (std::size_t t = 0; t < s.normal.size(); ++t) {
+    if (s.mesh.triangle_face[t] == face) mean += s.area[t] * s.normal[t];
+  }
+  mean.normalize();
+  for (std::size_t t = 0; t < s.normal.size(); ++t) {
+    if (s.mesh.triangle_face[t] == face) turning = turning.cwiseMax((s.normal[t] - mean).cwiseAbs());
+  }
+  if (s.flat[face] && plan.half->sloping(face)) return plane_cuts(mean);
+  return bent_cuts(mean, turning);
+}
+
 double cost(const Plan& plan) { return region_energy(plan.graph, plan.label); }
 
 // Barrels get room beside their edges where that leaves no violation and costs less, or there are violations otherwise; where it costs more, `spare` is
 // what to do if the cuts spoil the other.
 //
-// A labelling that stays invalid may lack a place to change its label: faces with tips are divided below the tip, then oblique planes beside the
+// A labelling that stays invalid may lack a place to change its label: faces with tips are divided below the tip, then oblique planes and bent faces beside the
 // violations in other ways, one after the other, as long as that leaves fewer violations.
 std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Room& room, Tips& tips,
                                 std::unique_ptr<Plan>& spare, const Monitor& monitor) {
@@ -447,8 +464,7 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   for (bool changed = true; changed && !best->left.valid();) {
     changed = false;
     for (int f : faces_at_fault(*best)) {
-      if (model.face(f).kind != SurfaceKind::kPlane || !best->half->sloping(f)) continue;
-      for (const FaceCut& cut : plane_cuts(frame * model.face(f).axis)) {
+      for (const FaceCut& cut : cuts_of(*best, f)) {
         if (best->left.valid() || tries++ >= kMostDivisions) return best;
         std::vector<FaceCut> cuts = best->setup.cuts;
         cuts[f] = cut;

@@ -84,6 +84,19 @@ class MeshArrays(unittest.TestCase):
         with self.assertRaises(polycube.Cancelled):
             polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, time_limit=0.2)
 
+    def test_a_mesher_that_is_stuck_keeps_the_time_limit(self):
+        with tempfile.TemporaryDirectory() as folder:
+            worker = os.path.join(folder, "worker")
+            with open(worker, "w") as file:
+                file.write("#!/bin/sh\nkill -STOP $PPID\nsleep 60\n")
+            os.chmod(worker, 0o700)
+            os.environ["POLYCUBE_TET_WORKER"] = worker
+            try:
+                with self.assertRaisesRegex(polycube.Cancelled, "out of time"):
+                    polycube.mesh(Part.makeBox(10, 10, 10), time_limit=1)
+            finally:
+                del os.environ["POLYCUBE_TET_WORKER"]
+
     def test_progress_and_log_arrive(self):
         stages, lines = [], []
         polycube.mesh(Part.makeBox(10, 10, 10), size=5, progress=lambda stage, fraction: stages.append((stage, fraction)), log=lines.append)

@@ -231,6 +231,15 @@ std::string ribbed_plate(double width, double slope) {
   return text(solid(BRepAlgoAPI_Fuse(block({0, 0, -0.2 * width}, {width, width, 0}), wedge).Shape()));
 }
 
+std::string lens(double width, double height) {
+  const double bulge = width / 2 * std::tan(std::numbers::pi / 12);  // arcs of 60 degrees
+  const gp_Pnt left(-width / 2, 0, 0), right(width / 2, 0, 0), low(0, -bulge, 0), high(0, bulge, 0);
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, low, right).Value()));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(right, high, left).Value()));
+  return text_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)));
+}
+
 std::string half_cylinder(double radius, double height) {
   const TopoDS_Shape tool = block({-2 * radius, -2 * radius, -height}, {2 * radius, 0, 2 * height});
   return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), tool).Shape()));

@@ -25,6 +25,7 @@ std::string turned(double radius, double height, double groove);  ///< shaft tur
 std::string forked_bar(double radius, double arm);                  ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
 std::string tangent_arm(double radius, double bore);                ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
 std::string ribbed_plate(double width, double slope);               ///< plate with a rib along all of it, a right triangle that ends flush, its hypotenuse steep by slope : 1
+std::string lens(double width, double height);                        ///< prism along Z over two arcs that meet at 60 degrees, `width` apart along X
 std::string half_cylinder(double radius, double height);            ///< cut by the plane y = 0, y >= 0 stays
 
 std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it; the bore's seam ends in the middle of the rib's upper end

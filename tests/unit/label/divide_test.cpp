@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/charts.h"
+#include "label/label.h"
 #include "support/shapes.h"
 #include "tet/tet.h"
 
@@ -46,6 +47,30 @@ TEST(Thirds, FaceTheirAxesAndMeetInTheMiddle) {
         EXPECT_NEAR(third_side(normal, Vec3::Unit(3 - k - other) - normal[3 - k - other] * normal, k, other), 0, 1e-12);
       }
     }
+  }
+}
+
+TEST(BentCuts, GoAcrossTheAxisAlongWhichTheNormalTurns) {
+  const std::vector<FaceCut> cuts = bent_cuts(Vec3::UnitY(), Vec3(0.5, 0.1, 0));
+  ASSERT_FALSE(cuts.empty());
+  for (const FaceCut& c : cuts) {
+    EXPECT_EQ(c.across, Vec3::UnitX());
+    EXPECT_TRUE(c.share > 0 && c.share < 1 && !c.thirds);
+  }
+  EXPECT_EQ(bent_cuts(Vec3::UnitZ(), Vec3(0.1, 0.4, 0)).front().across, Vec3::UnitY());
+  EXPECT_TRUE(bent_cuts(Vec3::UnitY(), Vec3(0.01, 0, 0.02)).empty());
+}
+
+// Two arcs that meet in two sharp edges: each must take a second label, or labels of one axis meet there.
+TEST(BentCuts, MakeALensValid) {
+  for (const double height : {4.0, 30.0}) {
+    const CadModel model = CadModel::from_brep(shapes::lens(20, height));
+    TetMesh mesh = tets_of(model);
+    LabelReport report;
+    const Labelling labelling = label(model, mesh, LabelOptions(), Monitor(), &report);
+    EXPECT_TRUE(report.valid()) << height;
+    EXPECT_EQ(report.turning_points, 0) << height;
+    EXPECT_EQ(std::set<int>(labelling.label.begin(), labelling.label.end()).size(), 6u) << height;
   }
 }
 

@@ -11,10 +11,13 @@ import signal
 import subprocess
 import tempfile
 import threading
+import time
 
 from . import engine, result
 from .errors import Cancelled, InvalidInput, StageFailed
 
+# From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it.
+_GRACE = 1.5
 _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
 
 
@@ -23,6 +26,8 @@ class Job:
 
     def __init__(self, shape, options, what="mesh"):
         self.what = what
+        limit = options.get("time_limit")
+        self.longest = limit + _GRACE if isinstance(limit, (int, float)) and limit > 0 else None  # seconds that the child may take at all
         self.folder = tempfile.mkdtemp(prefix="polycube-job-")
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
@@ -83,8 +88,7 @@ def run(job, progress=None, log=None, cancel=None):
         env=engine.environment(job.folder),
         text=True,
     )
-    stopped = threading.Event()
-    watcher = _watch(child, cancel, stopped) if cancel else None
+    watcher = _Watcher(child, cancel, job.longest)
     stderr = _Drain(child.stderr)
     try:
         for line in child.stdout:
@@ -99,12 +103,11 @@ def run(job, progress=None, log=None, cancel=None):
         child.wait()
         raise
     finally:
-        if watcher:
-            watcher.finished.set()
-            watcher.join()
+        watcher.finished.set()
+        watcher.join()
         last_words = stderr.text()
-    if stopped.is_set():
-        raise Cancelled("cancelled")
+    if watcher.reason:
+        raise Cancelled(watcher.reason)
     return job.finish(status, last_words)
 
 
@@ -139,20 +142,22 @@ class _Drain(threading.Thread):
 
 
 class _Watcher(threading.Thread):
-    def __init__(self, child, cancel, stopped):
+    """Kills the child when `cancel` says so or it takes more than `longest` seconds; `reason` tells which."""
+
+    def __init__(self, child, cancel, longest):
         super().__init__(daemon=True)
         self.finished = threading.Event()
-        self._child, self._cancel, self._stopped = child, cancel, stopped
+        self.reason = None
+        self._child, self._cancel, self._longest = child, cancel, longest
+        self._start = time.monotonic()
+        self.start()
 
     def run(self):
         while not self.finished.wait(0.1):
-            if self._cancel():
-                self._stopped.set()
+            if self._cancel and self._cancel():
+                self.reason = "cancelled"
+            elif self._longest and time.monotonic() - self._start > self._longest:
+                self.reason = "out of time"
+            if self.reason:
                 kill_tree(self._child.pid)
                 return
-
-
-def _watch(child, cancel, stopped):
-    watcher = _Watcher(child, cancel, stopped)
-    watcher.start()
-    return watcher

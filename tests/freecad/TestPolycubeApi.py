@@ -6,6 +6,7 @@ import os
 import tempfile
 import unittest
 from fractions import Fraction
+from unittest import mock
 
 import FreeCAD
 import numpy
@@ -112,8 +113,10 @@ class MeshArrays(unittest.TestCase):
             raise KeyboardInterrupt
 
         box = Part.makeBox(10, 10, 10)
-        before = job_folders()
-        polycube.mesh(box, size=5)
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.enterContext(mock.patch("tempfile.tempdir", folder))
+        polycube.mesh(box, size=5, progress=lambda *_: self.assertEqual(len(os.listdir(folder)), 1))
+        self.assertEqual(os.listdir(folder), [])
         for ending, options in (
             (polycube.InvalidInput, {"size": 1e6}),
             (polycube.InvalidInput, {"size": object()}),
@@ -125,15 +128,11 @@ class MeshArrays(unittest.TestCase):
             with self.subTest(options=options):
                 with self.assertRaises(ending):
                     polycube.mesh(box, **options)
-                self.assertEqual(job_folders(), before)
+                self.assertEqual(os.listdir(folder), [])
         for shape, options in ((box, {"size": object()}), (object(), {})):
             with self.assertRaises((TypeError, AttributeError)):
                 job.Job(shape, options)
-            self.assertEqual(job_folders(), before)
-
-
-def job_folders():
-    return {name for name in os.listdir(tempfile.gettempdir()) if name.startswith("polycube-job-")}
+            self.assertEqual(os.listdir(folder), [])
 
 
 class Options(unittest.TestCase):

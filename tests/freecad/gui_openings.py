@@ -1,6 +1,6 @@
 """The panel opened and closed again and again, in every way that a panel opens and closes; run by gui.sh.
 
-POLYCUBE_OPENINGS sets how often, 40 unless told: 300 take two minutes.
+POLYCUBE_OPENINGS sets how often, 40 unless told: 300 take two to five minutes.
 """
 
 import gc

@@ -29,6 +29,20 @@ def _exists(obj):
         return False
 
 
+def _load_form():
+    """The form in a widget that is made here: PySide notices the end of such a widget and of what was laid out in it.
+
+    Of the widget that FreeCAD's loader returns it does not notice it, and would take the next widget at that address for the old one.
+    """
+    form, loaded = QtGui.QWidget(), FreeCADGui.PySideUic.loadUi(resources.path("ui", "MeshPanel.ui"))
+    form.setWindowTitle(loaded.windowTitle())
+    layout = QtGui.QVBoxLayout(form)
+    layout.setContentsMargins(0, 0, 0, 0)
+    layout.addWidget(loaded)
+    vars(form).update(vars(loaded))
+    return form
+
+
 class MeshPanel:
     """Apply runs the mesher, Cancel stops it, OK is refused while it runs.
 
@@ -42,7 +56,7 @@ class MeshPanel:
         self.part, self.obj = part, obj
         self.analysis = objects.analysis_of(obj) if obj else analysis
         self.document_name = part.Document.Name if part else obj.Document.Name
-        self.form = FreeCADGui.PySideUic.loadUi(resources.path("ui", "MeshPanel.ui"))
+        self.form = _load_form()
         self.form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
         self.histogram = Histogram()
         self.form.quality_layout.insertWidget(1, self.histogram)

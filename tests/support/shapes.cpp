@@ -237,7 +237,7 @@ std::string lens(double width, double height) {
   BRepBuilderAPI_MakeWire wire;
   wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, low, right).Value()));
   wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(right, high, left).Value()));
-  return text_of(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)));
+  return text(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)));
 }
 
 std::string half_cylinder(double radius, double height) {

@@ -116,6 +116,10 @@ struct PartCommand {
 struct MeshCommand : PartCommand {
   explicit MeshCommand(CLI::App& app) : PartCommand(app, "mesh", "Hexahedral mesh of a CAD solid") {
     command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
+    command.footer(
+        "Names in the .inp file, of Face3 for example: Face3 its nodes (*BOUNDARY, *CLOAD), Face3_Surface its surface (*DSLOAD, *DFLUX, *TIE,\n"
+        "*CONTACT PAIR, *SECTION PRINT), Face3_Elements the elements at it, Face3_S4 those whose side S4 is on it (*FILM: Face3_S4, F4, ...). Edge5 and\n"
+        "Vertex2 are nodes. Solid1 is the elements of the solid (*SOLID SECTION, *DLOAD), Solid1_Nodes its nodes.");
   }
 
   Supervision check(Monitor::Clock::time_point start) const {
@@ -137,8 +141,7 @@ struct MeshCommand : PartCommand {
     FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing);
     fem.hex_block = result.hex_block;
     result.report.stages.push_back({"fem", seconds_since(fem_start)});
-    result.report.nodes = static_cast<int>(fem.points.size());
-    result.report.straightened_edges = fem.straightened;
+    complete(result.report, fem);
     const auto write_start = Monitor::Clock::now();
     write(fem, output, effective_element_type(options), finishing);
     result.report.stages.push_back({"write", seconds_since(write_start)});

@@ -1,4 +1,5 @@
 // CalculiX and Abaqus input: nodes, one element block, node and element sets and a surface for CAD entities.
+#include <array>
 #include <charconv>
 
 #include "core/error.h"
@@ -44,7 +45,11 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
   const bool quadratic = element_type.rfind("C3D20", 0) == 0;
   if (quadratic != (mesh.order == 2))
     throw InvalidInput("element type " + element_type + " does not fit a mesh of order " + std::to_string(mesh.order));
-  std::string text = "** Hexahedral mesh by Polycube. Sets and surfaces are named after CAD entities. Lengths in mm.\n*NODE, NSET=Nall\n";
+  std::string text =
+      "** Hexahedral mesh by Polycube. Lengths in mm.\n"
+      "** CAD face 3: node set Face3, surface Face3_Surface, elements Face3_Elements; those whose side S1 is on it, Face3_S1.\n"
+      "** The solid: elements Solid1, nodes Solid1_Nodes.\n"
+      "*NODE, NSET=Nall\n";
   text.reserve(mesh.points.size() * 80 + mesh.hexes.size() * 160);
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
     append(text, "%zu", p + 1);
@@ -61,23 +66,33 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
     text += '\n';
   }
   for (const FemGroup& group : mesh.groups) {
+    // CalculiX takes a surface for the element set of its name and then loads nothing: no two of these names are equal.
     const std::string name = group_name(group);
-    text += "*NSET, NSET=" + name + "\n";
+    text += "*NSET, NSET=" + (group.entity.dim == 3 ? node_group_name(group) : name) + "\n";
     append_set(text, plus_one(group.nodes));
     if (group.entity.dim == 3) {
       text += "*ELSET, ELSET=" + name + "\n";
       append_set(text, plus_one(group.elements));
     }
-    if (group.entity.dim == 2) {
-      std::vector<int> cells;
-      for (int q : group.elements) cells.push_back(mesh.quad_hex[q][0] + 1);
-      std::sort(cells.begin(), cells.end());
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-      text += "*ELSET, ELSET=" + name + "\n";
-      append_set(text, cells);
-      text += "*SURFACE, NAME=" + name + ", TYPE=ELEMENT\n";
-      for (int q : group.elements) append(text, "%d, S%d\n", mesh.quad_hex[q][0] + 1, mesh.quad_hex[q][1] + 1);
+    if (group.entity.dim != 2) continue;
+    std::vector<int> cells;
+    std::array<std::vector<int>, 6> by_side;
+    for (int q : group.elements) {
+      cells.push_back(mesh.quad_hex[q][0] + 1);
+      by_side[mesh.quad_hex[q][1]].push_back(cells.back());
     }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    text += "*ELSET, ELSET=" + name + "_Elements\n";
+    append_set(text, cells);
+    // *FILM takes no surface: it wants the elements by their side.
+    for (int side = 0; side < 6; ++side) {
+      if (by_side[side].empty()) continue;
+      text += "*ELSET, ELSET=" + name + "_S" + std::to_string(side + 1) + "\n";
+      append_set(text, by_side[side]);
+    }
+    text += "*SURFACE, NAME=" + name + "_Surface, TYPE=ELEMENT\n";
+    for (int q : group.elements) append(text, "%d, S%d\n", mesh.quad_hex[q][0] + 1, mesh.quad_hex[q][1] + 1);
   }
   return text;
 }

@@ -130,6 +130,7 @@ class Cli(FolderTest):
             self.assertEqual(run.returncode, 0)
             self.assertIn("Usage", run.stdout)
         self.assertIn("--time-limit", self.run_program("mesh", "--help").stdout)
+        self.assertIn("Face3_Surface", self.run_program("mesh", "--help").stdout)
 
     def test_time_limit(self):
         self.refuses(self.save(cylinder()), "--time-limit", "0.01", status=3)

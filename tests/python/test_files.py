@@ -119,7 +119,7 @@ RF
     def pressure(self, value):
         # CalculiX' *DLOAD wants elements and faces: those of the surface.
         with open(self.path("mesh.inp")) as file:
-            rows = re.search(r"\*SURFACE, NAME=Face2, TYPE=ELEMENT\n((?:\d.*\n)+)", file.read())
+            rows = re.search(r"\*SURFACE, NAME=Face2_Surface, TYPE=ELEMENT\n((?:\d.*\n)+)", file.read())
         return "".join("{}, P{}, {}\n".format(*row.replace(" ", "").split(",S"), value) for row in rows.group(1).splitlines())
 
     def test_bending_needs_the_right_element(self):

@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "core/error.h"
@@ -48,10 +50,27 @@ TEST_F(Write, InpHasSetsAndSurfacesForEveryEntity) {
   EXPECT_EQ(count(text, "*NSET, NSET=Face"), 6);
   EXPECT_EQ(count(text, "*NSET, NSET=Edge"), 12);
   EXPECT_EQ(count(text, "*NSET, NSET=Vertex"), 8);
-  EXPECT_EQ(count(text, "*ELSET, ELSET=Face"), 6);
+  EXPECT_EQ(count(text, "_Elements\n"), 6);
+  EXPECT_EQ(count(text, "*ELSET, ELSET=Face"), 12);  // all of a box face's quads are the same side of their cells
   EXPECT_EQ(count(text, "*SURFACE, NAME=Face"), 6);
   EXPECT_EQ(count(text, ", S"), 24);  // one line a quad
-  EXPECT_THAT(text, HasSubstr("*NSET, NSET=Solid1\n"));
+  EXPECT_THAT(text, HasSubstr("*ELSET, ELSET=Solid1\n"));
+}
+
+TEST_F(Write, InpNamesAreAllDifferent) {
+  // CalculiX takes a surface for the element set of its name, and a load on it goes nowhere.
+  for (int order : {1, 2}) {
+    const std::string text = written(box(order), "a.inp", order == 1 ? "C3D8" : "C3D20");
+    std::set<std::string> names;
+    for (const char* kind : {"NSET=", "ELSET=", "NAME="})
+      for (auto at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
+        if (text[at - 1] != ' ') continue;  // within another word
+        const auto begin = at + std::strlen(kind);
+        const std::string name = text.substr(begin, text.find_first_of(",\n", begin) - begin);
+        EXPECT_TRUE(names.insert(name).second) << name;
+      }
+    EXPECT_EQ(names.size(), 2u + 8 + 12 + 6 * 4 + 2) << "Nall, Eall, vertices, edges, faces, the solid";
+  }
 }
 
 TEST_F(Write, InpLinesHoldAtMostSixteenNumbers) {

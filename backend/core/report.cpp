@@ -114,7 +114,8 @@ std::string to_json(const MeshReport& report) {
                      {"edge_ratio", spread_json(report.shape.edge_ratio)},
                      {"skew", spread_json(report.shape.skew)},
                      {"warpage", spread_json(report.shape.warpage)},
-                     {"straightened_edges", report.straightened_edges}};
+                     {"straightened_edges", report.straightened_edges},
+                     {"straightened_faces", names(2, report.straightened_faces)}};
   json["volume"] = {{"mesh", report.volume}, {"cad", report.cad_volume}};
   json["worst_cells"] = Json::array();
   for (const WorstCell& cell : report.worst)

@@ -6,6 +6,7 @@
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "core/report.h"
 
 namespace polycube {
 
@@ -30,7 +31,7 @@ struct FemMesh {
   std::vector<std::array<int, 3>> segments;     ///< start, end, middle
   std::vector<int> segment_edge;                ///< per segment: CAD edge
   std::vector<FemGroup> groups;                 ///< ascending by entity; only entities that have a node
-  int straightened = 0;                         ///< curved edges left straight because curving would spoil a cell
+  std::vector<int> straight_nodes;              ///< mid-edge nodes off the CAD, because an edge on it would spoil a cell; ascending
 };
 
 struct FemOptions {
@@ -38,10 +39,13 @@ struct FemOptions {
   int threads = 0;  ///< 0: all cores. The result does not depend on it.
 };
 
-/// Mid-edge nodes go to the CAD edge or face they stand for, straight inside. Throws StageFailed("fem", ...) where a cell's Jacobian is
-/// not positive at an integration point even with straight edges.
+/// Mid-edge nodes go to the CAD edge or face they stand for, and stay in the middle of inner edges but where that would spoil a cell. Throws
+/// StageFailed("fem", ...) where a cell's Jacobian is not positive at an integration point even with straight edges.
 FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options,
                        const Monitor& monitor);
+
+/// Completes the report of the mesh that the elements were built from: nodes, straightened edges, and a warning that names their CAD faces.
+void complete(MeshReport& report, const FemMesh& mesh);
 
 /// Smallest Jacobian determinant of a cell at its 8 corners and 27 Gauss points, mm^3 (of the reference cube [-1, 1]^3).
 double least_jacobian(const FemMesh& mesh, int hex);

@@ -60,8 +60,7 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
     made.fem.hex_block = std::move(blocks);
     made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
     made.report.stages.push_back({"fem", seconds(fem_start)});
-    made.report.nodes = static_cast<int>(made.fem.points.size());
-    made.report.straightened_edges = made.fem.straightened;
+    complete(made.report, made.fem);
     return made;
   });
 }

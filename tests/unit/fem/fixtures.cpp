@@ -102,6 +102,14 @@ Example cylinder_example() {
   return example;
 }
 
+Example round_cell_example() {
+  Example example{CadModel::from_brep(shapes::cylinder(1, 1)), {}, {}};
+  example.mesh.points = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {1, 0, 1}, {0, 1, 1}, {-1, 0, 1}, {0, -1, 1}};
+  example.mesh.hexes = {{0, 1, 2, 3, 4, 5, 6, 7}};
+  example.association = associate_by_distance(example.model, example.mesh);
+  return example;
+}
+
 Example bore_example(double outer) {
   Example example{CadModel::from_brep(shapes::plate_with_hole(4, 4, 1, 1)), {}, {}};
   add_ring(example.mesh, Vec3(2, 2, 0), 1, outer);

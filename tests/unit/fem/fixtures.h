@@ -22,6 +22,9 @@ Example cylinder_example();
 /// Four cells round the bore of radius 1 of a plate, out to nodes at the given radius; they do not fill the plate.
 Example bore_example(double outer);
 
+/// One cell for a whole cylinder of radius 1 and height 1: its four quads on the wall meet where the wall is smooth.
+Example round_cell_example();
+
 /// Classifies the boundary of `mesh` on `model` by distance; every CAD face is a patch of its own.
 Association associate_by_distance(const CadModel& model, const HexMesh& mesh);
 

@@ -5,6 +5,16 @@ import os
 import ObjectsFem
 from femtools import ccxtools
 
+import ccx  # beside this file
+
+
+class _Tools(ccxtools.FemToolsCcx):
+    """FreeCAD's own, with the program that ccx.find names."""
+
+    def setup_ccx(self, *_, **__):
+        self.ccx_binary = ccx.find()
+        self.ccx_binary_present = self.ccx_binary is not None
+
 
 def make_analysis(part, fixed):
     """Analysis in the part's document with steel and fixed faces (names); returns (analysis, solver)."""
@@ -21,17 +31,25 @@ def make_analysis(part, fixed):
     return analysis, solver
 
 
-def solve(analysis, solver, folder):
-    """Writes the input file, runs CalculiX in `folder` and loads the results; returns (path of the input file, result object)."""
+def write(analysis, solver, folder):
+    """Writes the input file into `folder`; returns FreeCAD's tools with its path, `inp_file_name`."""
     os.makedirs(folder, exist_ok=True)
-    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
+    fea = _Tools(analysis, solver, test_mode=False)
     fea.update_objects()
     fea.setup_working_dir(folder)
-    fea.setup_ccx()
     trouble = fea.check_prerequisites()
     if trouble:
         raise RuntimeError(trouble)
     fea.write_inp_file()
+    return fea
+
+
+def solve(analysis, solver, folder):
+    """Writes the input file, runs CalculiX in `folder` and loads the results; returns (path of the input file, result object)."""
+    if not ccx.find():
+        raise RuntimeError(ccx.MISSING)
+    fea = write(analysis, solver, folder)
+    fea.setup_ccx()
     fea.ccx_run()
     fea.load_results()
     results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject")]

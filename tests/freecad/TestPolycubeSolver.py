@@ -20,6 +20,9 @@ from freecad.polycube import fem_mesh, objects
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "examples"))
 import bracket  # noqa: E402  (the demo's part)
 import calculix  # noqa: E402
+import ccx  # noqa: E402
+
+needs_calculix = unittest.skipUnless(ccx.find(), ccx.MISSING)
 
 
 def nodal_loads(path):
@@ -90,6 +93,7 @@ class SolverTest(unittest.TestCase):
             FreeCAD.closeDocument(self.document.Name)
 
 
+@needs_calculix
 class Cantilever(SolverTest):
     def test_faceload(self):
         """FreeCAD's ccx_cantilever_faceload, 8 m long, 9 MN at its end: beam theory with shear gives -87.8 mm."""
@@ -109,6 +113,7 @@ class Cantilever(SolverTest):
         self.assertLess((total_reaction(path) - Vector(0, 0, 9e6)).Length, 0.005 * 9e6)
 
 
+@needs_calculix
 class FreeCadExamples(SolverTest):
     """Largest displacement against what FreeCAD's own meshes give (mm)."""
 
@@ -147,6 +152,7 @@ class CylinderSide(SolverTest):
         ends = ["Face{}".format(i + 1) for i, face in enumerate(part.Shape.Faces) if face.Surface.TypeId == "Part::GeomPlane"]
         return part, side, ends
 
+    @needs_calculix
     def test_force_arrives_whole(self):
         part, side, ends = self.cylinder()
         analysis, solver = calculix.make_analysis(part, [ends[0]])
@@ -161,6 +167,7 @@ class CylinderSide(SolverTest):
         self.assertAlmostEqual(nodal_loads(path).Length, 1000, delta=20)
         self.assertGreater(max(result.DisplacementLengths), 0)
 
+    @needs_calculix
     def test_pressure_arrives_whole(self):
         part, side, ends = self.cylinder()
         analysis, solver = calculix.make_analysis(part, [ends[0]])
@@ -185,6 +192,7 @@ class CylinderSide(SolverTest):
         self.assertAlmostEqual(area / part.Shape.getElement(side).Area, 1, delta=0.02)
         self.assertLess(resultant.Length, 1e-3 * area)
 
+    @needs_calculix
     def test_pressure_on_an_end_is_carried_by_the_other(self):
         part, _, ends = self.cylinder()
         analysis, solver = calculix.make_analysis(part, [ends[0]])
@@ -198,6 +206,7 @@ class CylinderSide(SolverTest):
         self.assertAlmostEqual(total_reaction(path).Length / expected, 1, delta=0.02)
 
 
+@needs_calculix
 class DemoPart(SolverTest):
     def test_bracket(self):
         self.document = FreeCAD.newDocument()

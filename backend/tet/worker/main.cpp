@@ -86,7 +86,8 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
   session.set("Mesh.MeshSizeMin", setting.min_size);
   session.set("Mesh.MeshSizeMax", setting.size);
   session.set("Mesh.MeshSizeFromPoints", 0);
-  gmsh::model::mesh::setSizeCallback([&](int dim, int tag, double, double, double) { return size_at(setting, dim, tag); });
+  // Newer versions of Gmsh add the size so far to the place; both are left to Gmsh.
+  gmsh::model::mesh::setSizeCallback([&](int dim, int tag, auto...) { return size_at(setting, dim, tag); });
   gmsh::model::mesh::generate(3);
   const RawMesh mesh = collect();
   if (mesh.tets.empty()) {

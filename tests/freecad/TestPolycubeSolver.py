@@ -167,7 +167,6 @@ class CylinderSide(SolverTest):
         self.assertAlmostEqual(nodal_loads(path).Length, 1000, delta=20)
         self.assertGreater(max(result.DisplacementLengths), 0)
 
-    @needs_calculix
     def test_pressure_arrives_whole(self):
         part, side, ends = self.cylinder()
         analysis, solver = calculix.make_analysis(part, [ends[0]])
@@ -176,7 +175,7 @@ class CylinderSide(SolverTest):
         pressure.Pressure = 5.0
         obj = polycube.create_fem_mesh(part, size=4, analysis=analysis)
         self.document.recompute()
-        path, _ = calculix.solve(analysis, solver, self.folder)
+        path = calculix.write(analysis, solver, self.folder).inp_file_name
         faces = pressure_faces(path)
         mesh = obj.FemMesh
         group = next(group for group in mesh.Groups if mesh.getGroupName(group) == side)

@@ -10,10 +10,15 @@ REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 BUILD = os.environ.get("POLYCUBE_BUILD", os.path.join(REPO, "build"))
 PROGRAM = os.path.join(BUILD, "polycube")
 sys.path.insert(0, os.path.join(BUILD, "python"))
-sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
+sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib", os.path.join(REPO, "resources", "examples")]
 
 import FreeCAD  # noqa: E402
 import Part  # noqa: E402
+
+import ccx  # noqa: E402
+
+#: For a test that runs CalculiX, whose program is ccx.find().
+needs_calculix = unittest.skipUnless(ccx.find(), ccx.MISSING)
 
 VECTOR = FreeCAD.Vector
 

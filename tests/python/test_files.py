@@ -6,7 +6,7 @@ import unittest
 
 import meshio
 import numpy as np
-from support import FolderTest, box, plate
+from support import FolderTest, box, ccx, needs_calculix, plate
 
 import _polycube
 import Fem
@@ -75,6 +75,7 @@ class FreeCad(FolderTest):
                 self.check(".med", order)
 
 
+@needs_calculix
 class CalculiX(FolderTest):
     """A bar of 8 x 2 x 2 under tension and a cantilever, by the sets and surfaces of the .inp."""
 
@@ -99,7 +100,7 @@ RF
 """
         with open(self.path("job.inp"), "w") as file:
             file.write(deck)
-        run = subprocess.run(["ccx", "job"], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        run = subprocess.run([ccx.find(), "job"], cwd=self.folder, capture_output=True, text=True, timeout=300)
         self.assertNotIn("*ERROR", run.stdout)
         with open(self.path("job.dat")) as file:
             text = file.read()

@@ -2,6 +2,7 @@
 
 import os
 
+import FreeCAD
 import ObjectsFem
 from femtools import ccxtools
 
@@ -20,7 +21,9 @@ def make_analysis(part, fixed):
     """Analysis in the part's document with steel and fixed faces (names); returns (analysis, solver)."""
     document = part.Document
     analysis = ObjectsFem.makeAnalysis(document, "Analysis")
-    solver = analysis.addObject(ObjectsFem.makeSolverCalculixCcxTools(document, "Solver"))[0]
+    # FreeCAD 1.x has a capital X
+    make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+    solver = analysis.addObject(make_solver(document, "Solver"))[0]
     solver.AnalysisType = "static"
     steel = analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
     values = steel.Material
@@ -29,6 +32,12 @@ def make_analysis(part, fixed):
     support = analysis.addObject(ObjectsFem.makeConstraintFixed(document, "Support"))[0]
     support.References = [(part, name) for name in fixed]
     return analysis, solver
+
+
+def set_quantity(obj, name, value, unit):
+    """Sets a load in N or MPa. FreeCAD 0.20 has plain numbers for it; 1.x has quantities, and takes a plain number as mN or kPa."""
+    plain = obj.getTypeIdOfProperty(name) == "App::PropertyFloat"
+    setattr(obj, name, value if plain else FreeCAD.Units.Quantity("{} {}".format(value, unit)))
 
 
 def write(analysis, solver, folder):

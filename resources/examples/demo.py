@@ -1,6 +1,6 @@
 """The demo, run by resources/demo inside FreeCAD: mesh a bracket, solve it with CalculiX where that is installed, take pictures.
 
-The bottom is fixed; the two upper bores carry 4 kN towards the front, the top of the wall 2 MPa. Lines for the user go to descriptor 3.
+The bottom is fixed; the two upper bores carry 4 kN towards the front, the top of the wall 2 MPa. Lines for the user go to descriptor 8.
 """
 
 import json
@@ -25,7 +25,7 @@ SIZE, FORCE, PRESSURE = 3.0, 4000.0, 2.0  # mm, N, MPa
 
 
 def say(text):
-    os.write(3, (text + "\n").encode())
+    os.write(8, (text + "\n").encode())
 
 
 def set_up(document):
@@ -38,18 +38,21 @@ def set_up(document):
     analysis, solver = calculix.make_analysis(part, named["bottom"])
     force = analysis.addObject(ObjectsFem.makeConstraintForce(document, "Pull"))[0]
     force.References = [(part, name) for name in named["loads"]]
-    force.Force = FORCE
+    calculix.set_quantity(force, "Force", FORCE, "N")
     force.Direction = (part, [named["back"][0]])
     force.Reversed = True
     pressure = analysis.addObject(ObjectsFem.makeConstraintPressure(document, "Pressure"))[0]
     pressure.References = [(part, name) for name in named["top"]]
-    pressure.Pressure = PRESSURE
+    calculix.set_quantity(pressure, "Pressure", PRESSURE, "MPa")
     document.recompute()
     return part, analysis, solver
 
 
 def fit(view):
     """Fits the view and leaves room at the right for the colour scale."""
+    import pivy.coin  # FreeCAD 1.x hands out a camera only then; without a window the import crashes
+
+    del pivy
     view.fitAll()
     camera = view.getCameraNode()
     height = camera.height.getValue() * 1.15

@@ -70,6 +70,7 @@ def take_picture(document, mesh):
     """mesh.png"""
     FreeCADGui.activateWorkbench("FemWorkbench")
     view = FreeCADGui.getDocument(document.Name).activeView()
+    view.setAnimationEnabled(False)  # FreeCAD 1.x turns the camera by and by
     hide_all(document)
     # from the front, where the rib is
     view.setCameraOrientation(FreeCAD.Rotation(0.4247, 0.1759, 0.3399, 0.8205).Q)

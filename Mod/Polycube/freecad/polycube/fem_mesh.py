@@ -1,8 +1,8 @@
 """A Fem.FemMesh from the arrays, and the groups that FreeCAD's solvers look for."""
 
-from . import engine, shapes
+from . import compat, engine, shapes
 
-#: Constraints that FreeCAD 0.20 silently leaves out on hexahedra: its own search knows tetrahedra only.
+#: Constraints that FreeCAD, 0.20 and 1.0, silently leaves out on hexahedra: its own search knows tetrahedra only.
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
 
 #: Constraints that load faces of the mesh.
@@ -64,7 +64,8 @@ def node_quality(mesh):
 def add_group(mesh, name, kind, elements):
     """Adds a group of `kind` Node, Edge, Face or Volume."""
     if elements:
-        mesh.addGroupElements(mesh.addGroup(name, kind), elements)
+        with compat.quiet():
+            mesh.addGroupElements(mesh.addGroup(name, kind), elements)
 
 
 def add_constraint_groups(mesh, result, part, analysis):

@@ -4,13 +4,12 @@ import json
 
 import FreeCAD
 
-from . import fem_mesh, option_table, shapes
+from . import compat, fem_mesh, option_table, shapes
+from .compat import part_of, set_part
 from .errors import InvalidInput
 
 EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
 
-#: FreeCAD 1.x, 0.20
-_TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")
 #: type, name, group, meaning; all written by the mesher, none by the user
 _RESULTS = [
     ("App::PropertyString", "MeshState", "Polycube Result", "Whether the mesh fits shape and options; recompute marks it, Apply meshes"),
@@ -28,11 +27,7 @@ _HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
 
 def make(document, part, name="PolycubeMesh"):
     """A new mesh object without cells, linked to the document object `part`."""
-    import Fem  # makes the types known
-
-    del Fem
-    known = document.supportedTypes()
-    obj = document.addObject(next(kind for kind in _TYPES if kind in known), name)
+    obj = document.addObject(compat.mesh_type(document), name)
     PolycubeMesh(obj)
     set_part(obj, part)
     if FreeCAD.GuiUp:
@@ -40,18 +35,6 @@ def make(document, part, name="PolycubeMesh"):
 
         PolycubeMeshView(obj.ViewObject)
     return obj
-
-
-def part_of(obj):
-    """The document object that the mesh is made from: `Shape` in FreeCAD 1.x, `Part` in 0.20."""
-    return obj.Part if "Part" in obj.PropertiesList else obj.Shape
-
-
-def set_part(obj, part):
-    if "Part" in obj.PropertiesList:
-        obj.Part = part
-    else:
-        obj.Shape = part
 
 
 def is_polycube(obj):
@@ -123,7 +106,7 @@ class PolycubeMesh(Stateless):
         self._add_properties(obj)
 
     def _add_properties(self, obj):
-        if "Part" not in obj.PropertiesList and not obj.isDerivedFrom("Fem::FemMeshShapeBaseObject"):
+        if compat.needs_part_property(obj):
             obj.addProperty("App::PropertyLinkGlobal", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
         option_table.add_properties(obj)
         for kind, name, group, meaning in _RESULTS:

@@ -10,15 +10,11 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from . import api, engine, job, label_view, objects, option_table, quality_view, resources, shapes
+from .compat import print_error, qt_number
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .histogram import Histogram
 
 _TITLE = "Hexahedral mesh"
-
-
-def _number(flag):
-    """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
-    return int(getattr(flag, "value", flag))
 
 
 def _exists(obj):
@@ -110,10 +106,10 @@ class MeshPanel:
             FreeCADGui.Control.closeDialog()
 
     def getStandardButtons(self):
-        return _number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
+        return qt_number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
 
     def clicked(self, button):
-        if _number(button) == _number(QtGui.QDialogButtonBox.Apply):
+        if qt_number(button) == qt_number(QtGui.QDialogButtonBox.Apply):
             self.apply()
 
     def accept(self):
@@ -369,7 +365,7 @@ class MeshPanel:
         stamp = "{:.1f}: ".format(time.monotonic() - self.started) if self.started else ""
         line = html.escape(stamp + text)
         self.form.log.appendHtml('<span style="color:#c02020">{}</span>'.format(line) if error else line)
-        (FreeCAD.Console.PrintError if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
+        (print_error if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
 
     def _show_time(self):
         self.form.time.setText("{:.1f} s".format(time.monotonic() - self.started))

@@ -1,0 +1,65 @@
+"""What differs between FreeCAD 0.20 and 1.x, and between their Qt, in one place."""
+
+import os
+import sys
+from contextlib import contextmanager
+
+import FreeCAD
+
+#: Types of a FEM mesh object with a proxy: FreeCAD 1.x, 0.20
+_MESH_TYPES = ("Fem::FemMeshShapeBaseObjectPython", "Fem::FemMeshObjectPython")
+
+
+def mesh_type(document):
+    """The type for a new FEM mesh object."""
+    import Fem  # makes the types known
+
+    del Fem
+    known = document.supportedTypes()
+    return next(kind for kind in _MESH_TYPES if kind in known)
+
+
+def needs_part_property(obj):
+    """Whether the link to the part is for us to add: 1.x brings its own, `Shape`; objects of 0.20 have ours, `Part`, also when opened in 1.x."""
+    return "Part" not in obj.PropertiesList and not obj.isDerivedFrom("Fem::FemMeshShapeBaseObject")
+
+
+def part_of(obj):
+    """The document object that the mesh is made from."""
+    return obj.Part if "Part" in obj.PropertiesList else obj.Shape
+
+
+def set_part(obj, part):
+    if "Part" in obj.PropertiesList:
+        obj.Part = part
+    else:
+        obj.Shape = part
+
+
+def qt_number(flag):
+    """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
+    return int(getattr(flag, "value", flag))
+
+
+def print_error(text):
+    """To the report view only: 1.x opens a balloon for every other error, also for what the panel shows already."""
+    getattr(FreeCAD.Console, "PrintDeveloperError", FreeCAD.Console.PrintError)(text)
+
+
+@contextmanager
+def quiet():
+    """Nothing reaches standard output: FreeCAD prints two lines for every group that is added to a FEM mesh, from C++."""
+    try:
+        sys.stdout.flush()
+        kept = os.dup(1)
+    except (AttributeError, OSError):  # there is none
+        yield
+        return
+    null = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(null, 1)
+    os.close(null)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)

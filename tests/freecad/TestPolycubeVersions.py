@@ -1,0 +1,79 @@
+"""Documents of FreeCAD 0.20 and 1.0 in the version that runs, and what the versions do differently."""
+
+import os
+import shutil
+import tempfile
+import unittest
+
+import FreeCAD
+
+from freecad import polycube
+from freecad.polycube import compat, fem_mesh, objects
+
+DOCUMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "documents")
+
+
+class Documents(unittest.TestCase):
+    """A box of 10 mm in an analysis with a support on Face1, meshed with size 5 and Face2=+X."""
+
+    def open(self, name):
+        folder = tempfile.mkdtemp(prefix="polycube-versions-")
+        self.addCleanup(shutil.rmtree, folder, True)
+        path = shutil.copy(os.path.join(DOCUMENTS, name), folder)
+        document = FreeCAD.openDocument(path)
+        self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
+        return document
+
+    def check(self, document):
+        obj = next(obj for obj in document.Analysis.Group if objects.is_polycube(obj))
+        self.assertEqual(objects.part_of(obj), document.Box)
+        self.assertEqual((obj.FemMesh.HexaCount, obj.Hexahedra, obj.ElementOrder), (8, 8, "2nd"))
+        self.assertIn("Face1", [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups])
+        self.assertEqual(obj.Labels, ["Face2=+X"])
+        document.recompute()
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        document.Box.Length = 20
+        document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        polycube.update_fem_mesh(obj)
+        self.assertEqual((obj.MeshState, obj.FemMesh.HexaCount), (objects.CURRENT, 16))
+        document.save()
+
+    def test_of_0_20(self):
+        self.check(self.open("box-0.20.FCStd"))
+
+    def test_of_1_0(self):
+        """FreeCAD 0.20 does not know the type of the mesh object and leaves it out; the rest of the document is there."""
+        document = self.open("box-1.0.FCStd")
+        if "Fem::FemMeshShapeBaseObjectPython" in document.supportedTypes():
+            self.check(document)
+        else:
+            self.assertEqual([obj for obj in document.Objects if objects.is_polycube(obj)], [])
+            self.assertEqual(polycube.create_fem_mesh(document.Box, size=5, analysis=document.Analysis).Hexahedra, 8)
+
+
+class Compat(unittest.TestCase):
+    def test_groups_are_added_without_a_word(self):
+        """FreeCAD writes to descriptor 1 from C++, two lines for every group."""
+        import Fem
+
+        mesh = Fem.FemMesh()
+        mesh.addNode(0, 0, 0, 1)
+        with tempfile.TemporaryFile() as file:
+            kept = os.dup(1)
+            os.dup2(file.fileno(), 1)
+            try:
+                fem_mesh.add_group(mesh, "Vertex1", "Node", [1])
+                os.write(1, b"heard")
+            finally:
+                os.dup2(kept, 1)
+                os.close(kept)
+            file.seek(0)
+            self.assertEqual(file.read(), b"heard")
+        self.assertEqual(mesh.GroupCount, 1)
+
+    def test_quiet_ends_with_an_error(self):
+        before = os.fstat(1)
+        with self.assertRaises(ValueError), compat.quiet():
+            raise ValueError
+        self.assertTrue(os.path.samestat(os.fstat(1), before))

@@ -13,10 +13,12 @@
 namespace polycube {
 namespace {
 
-std::shared_ptr<const CadModel::Shape> checked(const TopoDS_Shape& shape) {
-  validate(shape);
+std::shared_ptr<const CadModel::Shape> checked(const FileShape& read, bool sew, const Monitor& monitor) {
+  Found found = find_solid(read, sew, monitor);
   try {
-    return describe(shape);
+    auto shape = describe(found.solid, found.numbers, monitor);
+    shape->warnings = std::move(found.warnings);
+    return shape;
   } catch (const Standard_Failure& failure) {
     throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + std::string(failure.GetMessageString()));
   }
@@ -24,16 +26,20 @@ std::shared_ptr<const CadModel::Shape> checked(const TopoDS_Shape& shape) {
 
 }  // namespace
 
-CadModel CadModel::read(const std::string& path) {
-  const TopoDS_Shape shape = read_shape(path);
+CadModel CadModel::read(const std::string& path, const ReadOptions& options, const Monitor& monitor) {
+  const FileShape shape = read_shape(path, options, monitor);
   try {
-    return CadModel(checked(shape));
+    return CadModel(checked(shape, options.sew, monitor));
   } catch (const InvalidInput& error) {
     throw InvalidInput(path + ": " + error.what());
   }
 }
 
-CadModel CadModel::from_brep(const std::string& text) { return CadModel(checked(parse_brep(text))); }
+CadModel CadModel::from_brep(const std::string& text, const ReadOptions& options, const Monitor& monitor) {
+  return CadModel(checked(parse_brep(text, monitor), options.sew, monitor));
+}
+
+const std::vector<std::string>& CadModel::warnings() const { return shape_->warnings; }
 
 std::string CadModel::to_brep() const {
   std::ostringstream stream;
@@ -41,6 +47,10 @@ std::string CadModel::to_brep() const {
   return stream.str();
 }
 
+const std::vector<int>& CadModel::brep_order(int dim) const { return shape_->numbers.at(static_cast<std::size_t>(dim)); }
+const std::vector<int>& CadModel::faces() const { return shape_->ascending[2]; }
+const std::vector<int>& CadModel::edges() const { return shape_->ascending[1]; }
+const std::vector<int>& CadModel::vertices() const { return shape_->ascending[0]; }
 int CadModel::face_count() const { return static_cast<int>(shape_->faces.size()); }
 int CadModel::edge_count() const { return static_cast<int>(shape_->edges.size()); }
 int CadModel::vertex_count() const { return static_cast<int>(shape_->vertices.size()); }
@@ -55,9 +65,9 @@ double CadModel::volume() const { return shape_->volume; }
 
 int CadModel::euler_characteristic() const {
   // A face cut open along its seams is a disk with one hole for each wire but the first.
-  int result = vertex_count() + face_count();
-  for (const CadEdge& edge : shape_->edges) result -= edge.degenerate ? 0 : 1;
-  for (const FaceGeometry& face : shape_->face_geometry) result -= std::max(0, face.wires - 1);
+  int result = static_cast<int>(vertices().size() + faces().size());
+  for (const int e : edges()) result -= edge(e).degenerate ? 0 : 1;
+  for (const int f : faces()) result -= std::max(0, shape_->face(f).wires - 1);
   return result;
 }
 

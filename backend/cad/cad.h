@@ -3,7 +3,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "core/monitor.h"
 #include "core/types.h"
 
 namespace polycube {
@@ -45,21 +47,37 @@ struct EdgePoint {
   double distance = 0;   ///< mm
 };
 
+struct ReadOptions {
+  std::string object{};  ///< name or label of the object to take from a FreeCAD document
+  bool sew = true;       ///< take faces without a solid for one if they sew to it within the file's own tolerance
+};
+
 /// One valid solid. Copies share the shape. All const members are safe to call from several threads at once.
-/// Face, edge and vertex numbers are FreeCAD's: 1-based, the order of TopExp::MapShapes on the whole shape.
+/// Face, edge and vertex numbers are FreeCAD's: 1-based, the order of TopExp::MapShapes on the whole shape as read. Where that shape holds more than
+/// its solid (loose faces, edges, vertices), or its faces had to be sewn, the numbers of the solid's entities have gaps.
 class CadModel {
  public:
-  /// Reads .step/.stp/.brep/.brp. Throws InvalidInput with one line: unreadable, empty, open, not one solid, self-intersecting, zero volume.
-  static CadModel read(const std::string& path);
+  /// Reads .step, .stp, .iges, .igs, .brep, .brp, .FCStd; lengths come out in mm. Throws InvalidInput with one line: unreadable, empty, open, not one
+  /// solid, self-intersecting, zero volume.
+  static CadModel read(const std::string& path, const ReadOptions& options = {}, const Monitor& monitor = Monitor());
   /// From BREP text (what FreeCAD's Shape.exportBrepToString gives). Throws InvalidInput.
-  static CadModel from_brep(const std::string& text);
-  /// The shape as BREP text.
+  static CadModel from_brep(const std::string& text, const ReadOptions& options = {}, const Monitor& monitor = Monitor());
+  /// What the user should know of how the solid was found, one line each: what was left out, what was sewn.
+  const std::vector<std::string>& warnings() const;
+  /// The solid as BREP text.
   std::string to_brep() const;
+  /// Numbers of the solid's entities of dimension 0 to 2 in the order in which TopExp::MapShapes finds them in to_brep().
+  const std::vector<int>& brep_order(int dim) const;
   /// The solid with p -> scale * rotation * p + translation (rotation proper orthogonal, scale > 0), entities numbered and edges directed as here.
   /// Every number of its geometry is rounded to a multiple of `grid` (0: left alone), far below OCCT's confusion of 1e-7 mm: solids that differ by
   /// rounding only become the same to the last bit. Throws InvalidInput where the result is no valid solid or has other entities.
   CadModel transformed(const Mat3& rotation, const Vec3& translation, double scale, double grid) const;
 
+  /// Numbers of the entities that the solid has, ascending.
+  const std::vector<int>& faces() const;
+  const std::vector<int>& edges() const;
+  const std::vector<int>& vertices() const;
+  /// The largest number: how many there are, unless the numbers have gaps.
   int face_count() const;
   int edge_count() const;
   int vertex_count() const;

@@ -23,7 +23,7 @@ std::vector<CadRef> CadModel::self_contacts() const {
         TopTools_IndexedMapOfShape map;
         TopExp::MapShapes(shape_->shape, kind, map);
         for (const TopoDS_Shape& faulty : result.GetFaultyShapes1()) {
-          if (map.Contains(faulty)) contacts.push_back({dim, map.FindIndex(faulty)});
+          if (map.Contains(faulty)) contacts.push_back({dim, brep_order(dim)[static_cast<std::size_t>(map.FindIndex(faulty)) - 1]});
         }
       }
     }

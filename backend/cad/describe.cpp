@@ -38,6 +38,14 @@ Vec2 to_vec(const gp_Pnt2d& p) { return {p.X(), p.Y()}; }
 
 struct Maps {
   TopTools_IndexedMapOfShape faces, edges, vertices;
+  const Numbering& numbers;
+  int edge(const TopoDS_Shape& shape) const { return number(edges, 1, shape); }
+  int vertex(const TopoDS_Shape& shape) const { return number(vertices, 0, shape); }
+
+ private:
+  int number(const TopTools_IndexedMapOfShape& map, std::size_t dim, const TopoDS_Shape& shape) const {
+    return numbers[dim].at(static_cast<std::size_t>(map.FindIndex(shape)) - 1);
+  }
 };
 
 Eigen::AlignedBox3d to_box(const Bnd_Box& box) {
@@ -71,7 +79,7 @@ EdgeGeometry edge_geometry(const TopoDS_Edge& edge) {
 
 CadEdge edge_facts(const EdgeGeometry& g, const Maps& maps) {
   CadEdge info;
-  info.vertices = {maps.vertices.FindIndex(TopExp::FirstVertex(g.edge)), maps.vertices.FindIndex(TopExp::LastVertex(g.edge))};
+  info.vertices = {maps.vertex(TopExp::FirstVertex(g.edge)), maps.vertex(TopExp::LastVertex(g.edge))};
   info.closed = info.vertices[0] == info.vertices[1];
   info.degenerate = g.curve.IsNull();
   info.tolerance = BRep_Tool::Tolerance(g.edge);
@@ -113,7 +121,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
   const TopoDS_Face face = TopoDS::Face(g.face.Oriented(TopAbs_FORWARD));
   // BRep_Tool::IsClosed is no test for a seam: a Boolean operation may leave both curves on an edge that bounds the face on one side only.
   std::map<int, int> occurrences;
-  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) ++occurrences[maps.edges.FindIndex(it.Current())];
+  for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) ++occurrences[maps.edge(it.Current())];
   for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
     const TopoDS_Wire wire = TopoDS::Wire(wires.Current());
     ++g.wires;
@@ -126,7 +134,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
     std::vector<std::size_t> starts;
     for (const TopoDS_Edge& edge : chain) {
       if (edge.Orientation() != TopAbs_FORWARD && edge.Orientation() != TopAbs_REVERSED) continue;
-      const int id = maps.edges.FindIndex(edge);
+      const int id = maps.edge(edge);
       EdgeUse use;
       use.face = face_id;
       use.forward = edge.Orientation() == TopAbs_FORWARD;
@@ -345,34 +353,52 @@ void join_tiny_edges(std::vector<CadEdge>& edges, int vertices, double diagonal)
 
 }  // namespace
 
-std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape) {
+std::shared_ptr<CadModel::Shape> describe(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor) {
   auto result = std::make_shared<CadModel::Shape>();
-  result->shape = shape;
-  BRepLib::BuildCurves3d(shape);
-  Maps maps;
-  TopExp::MapShapes(shape, TopAbs_FACE, maps.faces);
-  TopExp::MapShapes(shape, TopAbs_EDGE, maps.edges);
-  TopExp::MapShapes(shape, TopAbs_VERTEX, maps.vertices);
-  for (int i = 1; i <= maps.vertices.Extent(); ++i) result->vertices.push_back(polycube::to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i)))));
+  result->shape = solid;
+  result->numbers = numbers;
+  result->ascending = numbers;
+  for (auto& list : result->ascending) std::sort(list.begin(), list.end());
+  BRepLib::BuildCurves3d(solid);
+  Maps maps{{}, {}, {}, numbers};
+  TopExp::MapShapes(solid, TopAbs_FACE, maps.faces);
+  TopExp::MapShapes(solid, TopAbs_EDGE, maps.edges);
+  TopExp::MapShapes(solid, TopAbs_VERTEX, maps.vertices);
+  const auto largest = [&](std::size_t dim) { return result->ascending[dim].empty() ? 0 : static_cast<std::size_t>(result->ascending[dim].back()); };
+  const auto entry = [&](std::size_t dim, int at) { return static_cast<std::size_t>(numbers[dim].at(static_cast<std::size_t>(at) - 1)) - 1; };
+  result->vertices.assign(largest(0), Vec3::Zero());
+  result->edge_geometry.resize(largest(1));
+  result->edges.resize(largest(1));
+  result->face_geometry.resize(largest(2));
+  result->faces.resize(largest(2));
+  for (int i = 1; i <= maps.vertices.Extent(); ++i) result->vertices[entry(0, i)] = polycube::to_vec(BRep_Tool::Pnt(TopoDS::Vertex(maps.vertices(i))));
   for (int i = 1; i <= maps.edges.Extent(); ++i) {
-    result->edge_geometry.push_back(edge_geometry(TopoDS::Edge(maps.edges(i))));
-    result->edges.push_back(edge_facts(result->edge_geometry.back(), maps));
+    monitor.check();
+    EdgeGeometry& geometry = result->edge_geometry[entry(1, i)];
+    geometry = edge_geometry(TopoDS::Edge(maps.edges(i)));
+    result->edges[entry(1, i)] = edge_facts(geometry, maps);
   }
   for (int i = 1; i <= maps.faces.Extent(); ++i) {
-    result->face_geometry.push_back(face_geometry(TopoDS::Face(maps.faces(i))));
-    read_borders(i, result->face_geometry.back(), result->edge_geometry, result->edges, maps);
+    FaceGeometry& geometry = result->face_geometry[entry(2, i)];
+    geometry = face_geometry(TopoDS::Face(maps.faces(i)));
+    read_borders(static_cast<int>(entry(2, i)) + 1, geometry, result->edge_geometry, result->edges, maps);
   }
-  for (std::size_t e = 0; e < result->edges.size(); ++e) finish_edge(*result, result->edge_geometry[e], static_cast<int>(e) + 1, result->edges[e]);
-  for (std::size_t f = 0; f < result->face_geometry.size(); ++f) {
-    sample_face(*result, result->face_geometry[f]);
-    result->faces.push_back(face_facts(result->face_geometry[f], static_cast<int>(f) + 1, result->edges));
+  for (const int e : result->ascending[1]) {
+    const auto at = static_cast<std::size_t>(e) - 1;
+    finish_edge(*result, result->edge_geometry[at], e, result->edges[at]);
+  }
+  for (const int f : result->ascending[2]) {
+    monitor.check();
+    const auto at = static_cast<std::size_t>(f) - 1;
+    sample_face(*result, result->face_geometry[at]);
+    result->faces[at] = face_facts(result->face_geometry[at], f, result->edges);
   }
   Bnd_Box box;
-  BRepBndLib::AddOptimal(shape, box, false, false);
+  BRepBndLib::AddOptimal(solid, box, false, false);
   result->box = to_box(box);
   join_tiny_edges(result->edges, static_cast<int>(result->vertices.size()), result->box.diagonal().norm());
   GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
+  BRepGProp::VolumeProperties(solid, properties);
   result->volume = properties.Mass();
   return result;
 }

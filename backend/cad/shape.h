@@ -71,8 +71,15 @@ struct EdgeGeometry {
   std::vector<EdgeUse> uses;
 };
 
+/// Numbers of the vertices, edges and faces (by dimension) of a solid, in the order of TopExp::MapShapes on it.
+using Numbering = std::array<std::vector<int>, 3>;
+
+/// Tables by number: entry n - 1 is entity n, and empty where the solid has no entity n.
 struct CadModel::Shape {
-  TopoDS_Shape shape;
+  TopoDS_Shape shape;                        ///< the solid, or a compound of nothing else
+  Numbering numbers;
+  std::array<std::vector<int>, 3> ascending; ///< the same numbers, sorted
+  std::vector<std::string> warnings;
   std::vector<CadFace> faces;
   std::vector<CadEdge> edges;
   std::vector<Vec3> vertices;
@@ -85,14 +92,32 @@ struct CadModel::Shape {
   const EdgeGeometry& edge(int id) const { return edge_geometry[static_cast<std::size_t>(id - 1)]; }
 };
 
-/// Reads a file; throws InvalidInput. The shape is not checked.
-TopoDS_Shape read_shape(const std::string& path);
+/// A shape as a file has it.
+struct FileShape {
+  TopoDS_Shape shape;
+  double tolerance = 0;  ///< mm: what the file declares for all of it, 0 where its format has no such thing
+};
+
+/// The solid of a shape as read. Its entities have the numbers of that whole shape.
+struct Found {
+  TopoDS_Shape solid;
+  Numbering numbers;
+  std::vector<std::string> warnings;
+};
+
+/// Reads a file by its suffix; throws InvalidInput. The shape is not checked.
+FileShape read_shape(const std::string& path, const ReadOptions& options, const Monitor& monitor);
+FileShape read_step(const std::string& path, const Monitor& monitor);
+/// An object of a FreeCAD document, where FreeCAD shows it: placements of its containers included.
+FileShape read_document(const std::string& path, const std::string& object, const Monitor& monitor);
 /// From BREP text; throws InvalidInput. The shape is not checked.
-TopoDS_Shape parse_brep(const std::string& text);
-/// Throws InvalidInput unless the shape is exactly one closed valid solid of positive volume.
-void validate(const TopoDS_Shape& shape);
-/// Tables of a valid shape. Throws InvalidInput for what the tables cannot express (an edge of three faces).
-std::shared_ptr<const CadModel::Shape> describe(const TopoDS_Shape& shape);
+FileShape parse_brep(const std::string& text, const Monitor& monitor);
+/// The shape's one solid, checked; or, if it has faces only and `sew_faces`, the solid that they sew to within the file's own tolerance. Throws InvalidInput.
+Found find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor);
+/// Throws InvalidInput unless the shape is a closed valid solid of positive volume.
+void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);
+/// Tables of a valid solid. Throws InvalidInput for what the tables cannot express (an edge of three faces).
+std::shared_ptr<CadModel::Shape> describe(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);
 
 /// Parameters of the nearest point of the untrimmed surface, moved by periods into the face's domain where that is possible.
 /// `converged` is false where Newton's method ended elsewhere than in a foot point.

@@ -3,6 +3,7 @@
 #include <BRepTools.hxx>
 #include <ShapeUpgrade_RemoveLocations.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,6 +15,8 @@
 
 namespace polycube {
 namespace {
+
+constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE};
 
 // Rounds the real numbers of a BREP text; whole numbers (counts, references) and words stay.
 std::string on_grid(const std::string& text, double grid) {
@@ -55,20 +58,28 @@ CadModel CadModel::transformed(const Mat3& rotation, const Vec3& translation, do
   } catch (const Standard_Failure& failure) {
     throw InvalidInput("OpenCASCADE cannot move the shape: " + std::string(failure.GetMessageString()));
   }
-  validate(shape);
-  CadModel moved(describe(shape));
-  if (grid > 0) moved = from_brep(on_grid(moved.to_brep(), grid));
+  const auto numbered = [&](const TopoDS_Shape& solid) {
+    // What OCCT changed about the solid must not take it out of the tables.
+    for (std::size_t dim = 0; dim < 3; ++dim) {
+      TopTools_IndexedMapOfShape map;
+      TopExp::MapShapes(solid, kKinds[dim], map);
+      if (map.Extent() != static_cast<int>(shape_->numbers[dim].size())) throw InvalidInput("OpenCASCADE changes the shape when it moves it");
+    }
+    validate(solid, shape_->numbers, Monitor());
+    return CadModel(describe(solid, shape_->numbers, Monitor()));
+  };
+  CadModel moved = numbered(shape);
+  if (grid > 0) moved = numbered(parse_brep(on_grid(moved.to_brep(), grid), Monitor()).shape);
   // Entities must have kept their numbers and directions.
   const double reach = 1e-5 * scale * diagonal();
   const auto there = [&](const Vec3& p, const Vec3& q) { return (scale * (rotation * p) + translation - q).norm() <= reach; };
-  bool same = moved.vertex_count() == vertex_count() && moved.edge_count() == edge_count() && moved.face_count() == face_count();
-  for (int v = 1; same && v <= vertex_count(); ++v) same = there(vertex(v), moved.vertex(v));
-  for (int e = 1; same && e <= edge_count(); ++e) {
-    same = edge(e).vertices == moved.edge(e).vertices && edge(e).faces == moved.edge(e).faces;
+  bool same = std::all_of(vertices().begin(), vertices().end(), [&](int v) { return there(vertex(v), moved.vertex(v)); });
+  for (const int e : edges()) {
+    same = same && edge(e).vertices == moved.edge(e).vertices && edge(e).faces == moved.edge(e).faces;
     const auto before = edge_samples(e, 3), after = moved.edge_samples(e, 3);
     for (std::size_t i = 0; same && i < before.size(); ++i) same = there(before[i], after[i]);
   }
-  for (int f = 1; same && f <= face_count(); ++f) same = face(f).edges == moved.face(f).edges;
+  same = same && std::all_of(faces().begin(), faces().end(), [&](int f) { return face(f).edges == moved.face(f).edges; });
   if (!same) throw InvalidInput("OpenCASCADE renumbers the shape when it moves it");
   return moved;
 }

@@ -5,9 +5,9 @@
 #include <iostream>
 #include <new>
 
+#include "cad/cad.h"
 #include "cli/console.h"
 #include "cli/label_picture.h"
-#include "cli/part.h"
 #include "core/draft.h"
 #include "core/error.h"
 #include "fem/fem.h"
@@ -34,7 +34,8 @@ class OptionArguments {
       const std::string type = option_type(option), group = option.advanced ? "Advanced" : "Mesh";
       Argument& argument = *arguments_.emplace_back(std::make_unique<Argument>(Argument{option.name, {}, nullptr}));
       if (type == "bool") {
-        argument.parsed = command.add_flag(flag, option.meaning);
+        const bool on = MeshOptions().*std::get<bool MeshOptions::*>(option.member);
+        argument.parsed = command.add_flag(on ? flag + ",!--no-" + flag.substr(2) : flag, option.meaning);
       } else {
         argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
         const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "faces";
@@ -53,7 +54,7 @@ class OptionArguments {
     std::vector<std::pair<std::string, std::string>> given;
     for (const auto& argument : arguments_) {
       if (argument->parsed->count() == 0) continue;
-      std::string text = argument->texts.empty() ? "true" : argument->texts.front();
+      std::string text = argument->texts.empty() ? argument->parsed->as<std::string>() : argument->texts.front();
       for (std::size_t i = 1; i < argument->texts.size(); ++i) text += "," + argument->texts[i];
       given.emplace_back(argument->name, text);
     }
@@ -82,7 +83,7 @@ double seconds_since(Monitor::Clock::time_point start) { return std::chrono::dur
 /// What the commands on a CAD part have in common.
 struct PartCommand {
   PartCommand(CLI::App& app, const char* name, const char* meaning) : command(*app.add_subcommand(name, meaning)), arguments(command) {
-    command.add_option("part", part, "CAD solid: .step, .stp, .brep, .brp or .FCStd")->required();
+    command.add_option("part", part, "CAD solid: .step, .stp, .iges, .igs, .brep, .brp or .FCStd")->required();
     command.add_option("--object", object, "Object of a .FCStd document, by name or label");
     command.add_option("--report", report, "Write a report as JSON");
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
@@ -102,8 +103,8 @@ struct PartCommand {
 
   CadModel read(const MeshOptions& options, const Monitor& monitor) const {
     monitor.progress("cad", 0);
-    CadModel model = read_part(part, object);
-    polycube::check(options, model.diagonal(), model.face_count(), model.edge_count());
+    CadModel model = CadModel::read(part, {.object = object, .sew = options.sew}, monitor);
+    polycube::check(options, model.diagonal(), model.faces(), model.edges());
     return model;
   }
 
@@ -185,6 +186,7 @@ struct LabelCommand : PartCommand {
       if (output.ends_with(".png")) write_picture(output, labelled, inspection, picture);
     }
     if (!report.empty()) write_text(report, report_json(part, model, labelled, inspection));
+    for (const std::string& warning : model.warnings()) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
     if (labelled.failure) std::cerr << "polycube: warning: no map, stage " << labelled.failure->stage() << ": " << one_line(labelled.failure->what()) << "\n";
     const Violations& v = inspection.violations;
     const EdgeTable edges = edge_table(labelled);

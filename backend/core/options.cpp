@@ -189,6 +189,11 @@ const std::vector<OptionSpec>& option_table() {
        .member = &MeshOptions::time_limit,
        .max = 1e9,
        .zero_is_unset = true},
+      {.name = "sew",
+       .unit = "",
+       .meaning = "Take faces without a solid for one if they sew to it within the file's own tolerance.",
+       .member = &MeshOptions::sew,
+       .advanced = true},
       {.name = "labels",
        .unit = "",
        .meaning = "Axes of CAD faces set by hand, such as Face3=+X,Face7=-Z.",
@@ -322,28 +327,26 @@ void check(const MeshOptions& options) {
                        ", but --order " + std::to_string(options.order) + " is asked for");
 }
 
-void check(const MeshOptions& options, double diagonal, int face_count, int edge_count) {
+void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges) {
   check(options);
   if (options.size > diagonal) {
     char text[160];
     std::snprintf(text, sizeof text, "--size %g mm is larger than the part (bounding-box diagonal %g mm)", options.size, diagonal);
     throw InvalidInput(text);
   }
-  for (const auto& [face, label] : options.labels) {
-    if (face > face_count)
-      throw InvalidInput("--label: Face" + std::to_string(face) + " does not exist, the part has " + std::to_string(face_count) + " faces");
-  }
-  const auto check_entity = [](const char* option, const char* kind, int id, int count) {
-    if (id > count)
-      throw InvalidInput(std::string(option) + ": " + kind + std::to_string(id) + " does not exist, the part has " + std::to_string(count) +
-                         (kind[0] == 'F' ? " faces" : " edges"));
+  const auto check_entity = [](const char* option, const std::string& kind, int id, const std::vector<int>& numbers) {
+    if (id == 0 || std::binary_search(numbers.begin(), numbers.end(), id)) return;
+    const std::string start = std::string(option) + ": " + kind + std::to_string(id);
+    if (!numbers.empty() && id < numbers.back()) throw InvalidInput(start + " does not belong to the solid");
+    throw InvalidInput(start + " does not exist, the part has " + std::to_string(numbers.size()) + (kind == "Face" ? " faces" : " edges"));
   };
+  for (const auto& [face, label] : options.labels) check_entity("--label", "Face", face, faces);
   for (const Division& d : options.divisions) {
-    check_entity("--divisions", "Edge", d.edge, edge_count);
-    for (int face : d.faces) check_entity("--divisions", "Face", face, face_count);
+    check_entity("--divisions", "Edge", d.edge, edges);
+    for (int face : d.faces) check_entity("--divisions", "Face", face, faces);
   }
-  for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, face_count);
-  for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, face_count);
+  for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, faces);
+  for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, faces);
 }
 
 void check_count(double hexes) {

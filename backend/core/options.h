@@ -30,6 +30,7 @@ struct MeshOptions {
   std::string effort = "normal";
   double time_limit = 0;
   double feature_angle = 0;
+  bool sew = true;
   FaceList keep_faces;
   int threads = 0;
   FaceLabels labels;
@@ -74,8 +75,8 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option);
 void check(const MeshOptions& options);
 
 /// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division, a local size or a face to keep
-/// names a face or edge it does not have.
-void check(const MeshOptions& options, double diagonal, int face_count, int edge_count);
+/// names a face or edge that is not among the numbers of the solid's (ascending).
+void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges);
 
 /// "+X", "-X", ... of a label 0..5.
 const char* label_name(int label);

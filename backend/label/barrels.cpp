@@ -24,7 +24,7 @@ double turn(double from, double to) { return std::remainder(to - from, 2 * kPi);
 
 Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, const Room* room)
     : model_(model), mesh_(mesh), frame_(frame), barrels_(static_cast<std::size_t>(model.face_count()) + 1) {
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     const CadFace& face = model.face(f);
     if (!divided[f] || (face.kind != SurfaceKind::kCylinder && face.kind != SurfaceKind::kCone)) continue;
     Barrel& barrel = barrels_[f];

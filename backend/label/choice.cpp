@@ -40,7 +40,7 @@ Choices choices_of(const CadModel& model, const TetMesh& mesh, const std::vector
     const int f = mesh.triangle_face[t];
     least[f] = std::min(least[f], normal[t].dot(mean[f].normalized()));
   }
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     const CadFace& face = model.face(f);
     result.bends = result.bends || face.kind == SurfaceKind::kTorus || (least[f] < std::cos(LabelOptions{}.widest_bend) && least[f] >= std::cos(kFilletsWhole));
     for (int axis = 0; axis < 3; ++axis) result.chamfers[axis] = result.chamfers[axis] || is_chamfer(face, frames.front(), axis);

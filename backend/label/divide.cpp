@@ -144,7 +144,7 @@ Tips divide_tips(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
   tips.mesh = mesh;
   Cutter cutter{tips.mesh, mesh.triangle_face};
   for (int& r : cutter.region) r *= 8;
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     const CadEdge& edge = model.edge(e);
     const int face = edge.faces[0];
     if (!edge.tip || !tips.axis[face].isZero()) continue;
@@ -159,7 +159,7 @@ Tips divide_tips(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
   }
   tips.label.assign(tips.mesh.triangles.size(), -1);
   tips.upper.assign(tips.mesh.triangles.size(), 0);
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     if (tips.axis[f].isZero()) continue;
     const std::array<int, 4> labels = quarter_labels(cutter, f, tips.axis[f], frame);
     for (std::size_t t = 0; t < cutter.region.size(); ++t) {

@@ -215,7 +215,7 @@ std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& 
     next[mesh.segment_edge[i]][b].push_back(a);
   }
   std::vector<std::vector<int>> chains(model.edge_count() + 1);
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     if (next[e].empty()) continue;
     int start = next[e].begin()->first;
     for (const auto& [node, beside] : next[e]) {
@@ -242,7 +242,7 @@ double bend(const CadEdge& edge) { return std::max(std::abs(edge.min_angle - std
 std::vector<char> smooth_edges(const CadModel& model, double angle, const std::vector<int>& keep_faces) {
   const auto kept = [&](int face) { return std::find(keep_faces.begin(), keep_faces.end(), face) != keep_faces.end(); };
   std::vector<char> smooth(static_cast<std::size_t>(model.edge_count()) + 1, 0);
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     const CadEdge& edge = model.edge(e);
     smooth[e] = bend(edge) < angle && !kept(edge.faces[0]) && !kept(edge.faces[1]);
   }
@@ -253,7 +253,7 @@ Features find_features(const CadModel& model, const TetMesh& mesh, const Labelli
                        const Monitor& monitor) {
   const auto chains = edge_chains(model, mesh);
   std::vector<int> order;
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     if (!model.edge(e).seam && !model.edge(e).degenerate && !model.edge(e).tiny) order.push_back(e);
   }
   // Sharp edges first, then long ones: where two exclude each other the one that matters more stays.

@@ -23,7 +23,7 @@ struct Vote {
 // Directions up to sign, those within a thousandth of a radian gathered into one.
 std::vector<Vote> collect_votes(const CadModel& model) {
   std::vector<Vote> votes;
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     const CadFace& face = model.face(f);
     if (face.axis.squaredNorm() < 0.5) continue;
     // The axis of a curved face fixes one direction only, as a plane does; curved faces count less so that a big barrel does not
@@ -70,13 +70,13 @@ Mat3 nearest_to_world(const Mat3& frame) {
 Vec3 direction_across(const CadModel& model, const Vec3& axis) {
   Vec3 centre = Vec3::Zero();
   double area = 0;
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     centre += model.face(f).area * model.face(f).centre;
     area += model.face(f).area;
   }
   centre /= area;
   Vec3 best = Vec3::Zero();
-  for (int v = 1; v <= model.vertex_count(); ++v) {
+  for (const int v : model.vertices()) {
     const Vec3 arm = model.vertex(v) - centre;
     const Vec3 across = arm - arm.dot(axis) * axis;
     if (across.norm() > best.norm() * (1 + 1e-6) + 1e-6 * model.diagonal()) best = across;
@@ -87,18 +87,20 @@ Vec3 direction_across(const CadModel& model, const Vec3& axis) {
 
 // For a part without any direction of its own, as a sphere: from its first CAD vertex to the one furthest from it, which turns with the part.
 Mat3 frame_of_vertices(const CadModel& model) {
+  if (model.vertices().empty()) return Mat3::Identity();
+  const Vec3& start = model.vertex(model.vertices().front());
   Vec3 a = Vec3::Zero();
-  for (int v = 2; v <= model.vertex_count(); ++v) {
-    const Vec3 arm = model.vertex(v) - model.vertex(1);
+  for (const int v : model.vertices()) {
+    const Vec3 arm = model.vertex(v) - start;
     if (arm.norm() > a.norm() * (1 + 1e-6)) a = arm;
   }
   if (a.norm() < 1e-3 * model.diagonal()) return Mat3::Identity();
   a.normalize();
   Vec3 b = a.unitOrthogonal();
   double furthest = 1e-3 * model.diagonal();
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     for (const Vec3& p : model.edge_samples(e, 5)) {
-      const Vec3 arm = p - model.vertex(1), across = arm - arm.dot(a) * a;
+      const Vec3 arm = p - start, across = arm - arm.dot(a) * a;
       if (across.norm() <= furthest * (1 + 1e-6)) continue;
       furthest = across.norm();
       b = across.normalized();

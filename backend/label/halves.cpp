@@ -128,7 +128,7 @@ void Halves::find_middles(const std::vector<int>& labels) {
 // The faces of one bore are halved at one height, or the border would have a step where they join.
 void Halves::find_barrels() {
   barrel_.assign(s_.model.face_count() + 1, 0);
-  for (int f = 1; f <= s_.model.face_count(); ++f) {
+  for (const int f : s_.model.faces()) {
     const CadFace& face = s_.model.face(f);
     if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine) continue;
     barrel_[f] = f;

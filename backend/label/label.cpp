@@ -398,7 +398,7 @@ bool label_changes_at_tip(const Plan& plan) {
   const CadModel& model = plan.setup.model;
   const TetMesh& mesh = plan.setup.mesh;
   std::set<std::pair<int, int>> tips;  // face, vertex
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     if (model.edge(e).tip) tips.insert({model.edge(e).faces[0], model.edge(e).vertices[0]});
   }
   if (tips.empty()) return false;

@@ -127,7 +127,7 @@ Room make_room(const CadModel& model, const TetMesh& mesh, const Mat3& frame, co
   Room room;
   double size = 0;
   for (const Triangle& t : mesh.triangles) size += (mesh.points[t[0]] - mesh.points[t[1]]).norm() / static_cast<double>(mesh.triangles.size());
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) {
     const SurfaceKind kind = model.face(f).kind;
     if (!divided[f] || (kind != SurfaceKind::kCylinder && kind != SurfaceKind::kCone)) continue;
     const std::vector<Strip> found = find_strips(model, frame, f, size);

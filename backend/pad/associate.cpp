@@ -97,7 +97,7 @@ class Associator {
 
   // Edges block each other's way. Those that found none go first the next time (rip up and reroute); the round that loses least counts.
   Association run(std::vector<CrowdedCorner>* crowded) {
-    for (int e = 1; e <= model_.edge_count(); ++e) {
+    for (const int e : model_.edges()) {
       const CadEdge& edge = model_.edge(e);
       if (!edge.seam && !edge.degenerate && !edge.tiny) real_.push_back(e);
     }
@@ -152,7 +152,7 @@ class Associator {
   void find_tips() {
     std::set<int> ends;
     for (int e : real_) ends.insert(model_.edge(e).vertices.begin(), model_.edge(e).vertices.end());
-    for (int e = 1; e <= model_.edge_count(); ++e) {
+    for (const int e : model_.edges()) {
       if (model_.edge(e).tip && ends.count(model_.edge(e).vertices[0]) == 0) tips_.push_back(model_.edge(e).vertices[0]);
     }
     std::sort(tips_.begin(), tips_.end());
@@ -238,7 +238,7 @@ class Associator {
   // Vertices with lost edges that had no way to leave: fewer quads than edges between two captured edges there.
   std::vector<CrowdedCorner> crowded_corners() const {
     std::vector<CrowdedCorner> result;
-    for (int v = 1; v <= model_.vertex_count(); ++v) {
+    for (const int v : model_.vertices()) {
       const std::vector<Spoke>& spokes = spokes_[v];
       const int count = static_cast<int>(spokes.size()), node = vertex_node_[v];
       if (node < 0) continue;
@@ -284,7 +284,7 @@ class Associator {
       int vertex, node;
     };
     std::vector<Candidate> candidates;
-    for (int v = 1; v <= model_.vertex_count(); ++v) {
+    for (const int v : model_.vertices()) {
       if (!wanted[v] || tet_node[v] < 0) continue;
       const std::set<int>& charts = tet_charts_[tet_node[v]];
       for (int n : nodes_) {
@@ -611,7 +611,7 @@ class Associator {
 
   void fill(Association& result, const std::vector<int>& region, const std::vector<int>& region_patch, const std::function<int(int)>& find) const {
     std::map<int, int> index;
-    for (int f = 1; f <= model_.face_count(); ++f) {
+    for (const int f : model_.faces()) {
       const auto [it, fresh] = index.try_emplace(find(f), static_cast<int>(index.size()));
       if (fresh) result.patches.emplace_back();
       result.patches[it->second].push_back(f);
@@ -642,7 +642,7 @@ class Associator {
       wanted[v] = kWanted;
       reached[v] = vertex_node_[v] >= 0;
     }
-    for (int v = 1; v <= model_.vertex_count(); ++v) {
+    for (const int v : model_.vertices()) {
       if (!wanted[v]) continue;
       if (reached[v]) {
         result.point_cad[vertex_node_[v]] = {0, v};

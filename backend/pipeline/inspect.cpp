@@ -157,7 +157,7 @@ std::string report_json(const std::string& name, const CadModel& model, const La
   json["monotone"] = v.turning_points == 0;
   json["violations"] = {{"opposite_boundaries", v.opposite_arcs}, {"missing_corners", v.poor_loops}, {"bad_corners", v.bad_corners}, {"turning_points", v.turning_points},
                         {"bad_turns", v.bad_turns}};
-  json["counts"] = {{"faces", model.face_count()}, {"tets", part.tets.tets.size()}, {"triangles", part.tets.triangles.size()}, {"charts", inspection.charts},
+  json["counts"] = {{"faces", model.faces().size()}, {"tets", part.tets.tets.size()}, {"triangles", part.tets.triangles.size()}, {"charts", inspection.charts},
                     {"boundaries", inspection.boundaries}, {"corners", inspection.corners.size()}, {"stray_charts", inspection.stray_charts.size()},
                     {"zigzags", inspection.zigzags.size()}, {"flipped", part.flipped}};
   const EdgeTable edges = edge_table(part);
@@ -169,8 +169,9 @@ std::string report_json(const std::string& name, const CadModel& model, const La
   for (int k = 0; k < 3; ++k) json["frame"].push_back({part.labelling.frame(k, 0), part.labelling.frame(k, 1), part.labelling.frame(k, 2)});
   const std::vector<int> labels = face_labels(part, model.face_count());
   json["faces"] = Json::object();
-  for (int f = 1; f <= model.face_count(); ++f) json["faces"][polycube::name({2, f})] = label_name(labels[f]);
+  for (const int f : model.faces()) json["faces"][polycube::name({2, f})] = label_name(labels[f]);
   json["map"] = part.failure ? Json(part.failure->what()) : Json("made");
+  json["warnings"] = model.warnings();
   json["stages"] = Json::array();
   for (const StageRecord& stage : part.stages) json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   return json.dump(2) + "\n";

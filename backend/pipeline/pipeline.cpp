@@ -49,7 +49,7 @@ StageFailed with_labels(const StageFailed& failure, const FaceLabels& labels) {
 
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
   check(options);
-  check(options, model.diagonal(), model.face_count(), model.edge_count());
+  check(options, model.diagonal(), model.faces(), model.edges());
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
   const Pose pose = canonical_pose(model, options.frame);
@@ -67,6 +67,7 @@ MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor
   if (!(quality.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells lose their volume on the way back to the part's place");
   MeshReport& r = result.report;
   r.options = options;
+  r.warnings.insert(r.warnings.begin(), model.warnings().begin(), model.warnings().end());
   r.size /= pose.scale;
   r.quality = quality;
   r.shape = summarise_shape(result.mesh);

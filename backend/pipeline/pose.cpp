@@ -30,8 +30,8 @@ double nine_digits(double value) {
 
 std::vector<Vec3> points_of(const CadModel& model) {
   std::vector<Vec3> points;
-  for (int v = 1; v <= model.vertex_count(); ++v) points.push_back(model.vertex(v));
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int v : model.vertices()) points.push_back(model.vertex(v));
+  for (const int e : model.edges()) {
     for (const Vec3& p : model.edge_samples(e, kSamples)) points.push_back(p);
   }
   return points;

@@ -43,7 +43,8 @@ class Callbacks {
 MeshOptions options_from(const py::kwargs& given);
 
 /// Exactly one of path and brep must be given. Throws InvalidInput.
-CadModel read_model(const std::optional<std::string>& path, const std::optional<std::string>& brep);
+CadModel read_model(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+                    const MeshOptions& options, const Monitor& monitor);
 
 /// Runs `work` with the GIL released and the time limit of the options, and turns what callbacks threw into what comes out.
 template <typename Work>

@@ -7,14 +7,14 @@
 namespace polycube::python {
 namespace {
 
-py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const py::object& progress, const py::object& log,
-              const py::object& cancel, const py::kwargs& given) {
+py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object, const py::object& progress,
+              const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   int face_count = 0;
   const LabelledPart part = run_released(callbacks, options, [&] {
-    const CadModel model = read_model(path, brep);
-    check(options, model.diagonal(), model.face_count(), model.edge_count());
+    const CadModel model = read_model(path, brep, object, options, callbacks.monitor);
+    check(options, model.diagonal(), model.faces(), model.edges());
     face_count = model.face_count();
     return label_part(model, options, callbacks.monitor, Until::kLabels);
   });
@@ -54,8 +54,8 @@ void bind_labels(py::module_& module) {
   }
   module.attr("LABEL_NAMES") = names;
   module.attr("LABEL_COLOURS") = colours;
-  module.def("labels", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("progress") = py::none(),
-             py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+  module.def("labels", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
+             py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "Labels of the boundary of one CAD solid (0..5 = +X -X +Y -Y +Z -Z of the frame), to look at; see backend/python/README.md.");
 }
 

@@ -41,15 +41,15 @@ py::array_t<double> per_cell(const Mesh& mesh, double (*measure)(const std::vect
 
 py::object report(const Mesh& mesh) { return py::module_::import("json").attr("loads")(to_json(mesh.report)); }
 
-Mesh make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const py::object& progress, const py::object& log,
-          const py::object& cancel, const py::kwargs& given) {
+Mesh make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object, const py::object& progress,
+          const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   return run_released(callbacks, options, [&] {
     const auto seconds = [](Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); };
     const auto read_start = Monitor::Clock::now();
-    const CadModel model = read_model(path, brep);
-    check(options, model.diagonal(), model.face_count(), model.edge_count());
+    const CadModel model = read_model(path, brep, object, options, callbacks.monitor);
+    check(options, model.diagonal(), model.faces(), model.edges());
     const double read_seconds = seconds(read_start);
     MeshResult result = polycube::mesh(model, options, callbacks.monitor);
     const auto fem_start = Monitor::Clock::now();
@@ -98,8 +98,8 @@ void bind_mesh(py::module_& module) {
   });
   cls.def("write", &write_mesh, py::arg("path"), py::arg("element_type") = py::none(),
           "Writes .inp, .unv, .vtu, .med or .mesh by suffix; element_type (.inp only) overrides the option.");
-  module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("progress") = py::none(),
-             py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+  module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
+             py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "Hexahedral mesh of one CAD solid. Further keyword arguments: options().");
 }
 

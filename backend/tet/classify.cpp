@@ -71,9 +71,9 @@ double distance(const CadModel& model, int dim, int id, const Vec3& p) {
   return dim == 1 ? model.project_to_edge(id, p).distance : model.project_to_face(id, p).distance;
 }
 
-/// Gmsh tag -> CAD number. The equal number is looked at first; nothing is taken without the distances agreeing.
+/// Gmsh tag -> CAD number. The tag's place in the file is looked at first; nothing is taken without the distances agreeing.
 std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
-  const int count = dim == 0 ? model.vertex_count() : dim == 1 ? model.edge_count() : model.face_count();
+  const std::vector<int>& order = model.brep_order(dim);
   std::map<int, int> result;
   std::set<int> taken;
   for (const auto& [tag, probe] : probes(raw, dim)) {
@@ -88,8 +88,12 @@ std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
       for (const Vec3& p : probe.centres) sum += distance(model, dim, id, p);
       if (sum < least) least = sum, best = id;
     };
-    if (probe.own && tag <= count && !(dim == 1 && model.edge(tag).degenerate) && all_within(tag, kNear)) best = tag;
-    for (int id = 1; id <= count && best != tag; ++id) consider(id);
+    const int expected = tag >= 1 && at(tag) <= order.size() ? order[at(tag) - 1] : 0;
+    if (probe.own && expected > 0 && !(dim == 1 && model.edge(expected).degenerate) && all_within(expected, kNear)) best = expected;
+    for (const int id : order) {
+      if (best != 0 && best == expected) break;
+      consider(id);
+    }
     if (best == 0) throw Unusable("Gmsh's " + name({dim, tag}) + " lies on no CAD entity");
     if (!taken.insert(best).second) throw Unusable("two of Gmsh's entities lie on " + name({dim, best}), {{dim, best}});
     result[tag] = best;
@@ -189,11 +193,11 @@ void check_complete(const TetMesh& mesh, const CadModel& model) {
   for (const int edge : mesh.segment_edge) ++edges[at(edge)];
   for (const int face : mesh.triangle_face) ++faces[at(face)];
   std::vector<CadRef> missing;
-  for (int v = 1; v <= model.vertex_count(); ++v)
+  for (const int v : model.vertices())
     if (vertices[at(v)] != 1) missing.push_back({0, v});
-  for (int e = 1; e <= model.edge_count(); ++e)
+  for (const int e : model.edges())
     if (edges[at(e)] == 0 && !model.edge(e).degenerate) missing.push_back({1, e});
-  for (int f = 1; f <= model.face_count(); ++f)
+  for (const int f : model.faces())
     if (faces[at(f)] == 0) missing.push_back({2, f});
   if (!missing.empty()) throw Unusable("the tetrahedra leave out " + name(missing.front()), missing);
   std::set<Segment> boundary_edges;

@@ -74,16 +74,18 @@ EntitySizes entity_sizes(const CadModel& model, double size, double per_circle) 
     return std::clamp(2 * std::numbers::pi / (per_circle * curvature), least, size);
   };
   double surface = 0;
-  for (int f = 1; f <= model.face_count(); ++f) surface += model.face(f).area;
-  for (int f = 1; f <= model.face_count(); ++f) {
+  for (const int f : model.faces()) surface += model.face(f).area;
+  std::vector<double> by_number(static_cast<std::size_t>(model.face_count()) + 1, size);
+  for (const int f : model.brep_order(2)) {
     const double area = model.face(f).area;
     const double least = area < kMainFace * surface ? finest : std::min(finest, std::sqrt(area / kMainTriangles));
     sizes.faces.push_back(from_curvature(face_curvature(model, f), least));
+    by_number[static_cast<std::size_t>(f)] = sizes.faces.back();
   }
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.brep_order(1)) {
     const CadEdge& edge = model.edge(e);
     double edge_size = edge.degenerate ? size : from_curvature(edge_curvature(model, e), finest);
-    for (const int f : edge.faces) edge_size = std::min(edge_size, sizes.faces[static_cast<std::size_t>(f - 1)]);
+    for (const int f : edge.faces) edge_size = std::min(edge_size, by_number[static_cast<std::size_t>(f)]);
     sizes.edges.push_back(edge_size);
   }
   sizes.least = std::min(finest, *std::min_element(sizes.faces.begin(), sizes.faces.end()));

@@ -9,8 +9,8 @@ namespace polycube {
 
 struct EntitySizes {
   double least = 0;           ///< mm: nothing is made smaller on purpose
-  std::vector<double> edges;  ///< mm, per CAD edge
-  std::vector<double> faces;  ///< mm, per CAD face
+  std::vector<double> edges;  ///< mm, in the order of CadModel::brep_order(1), which Gmsh's tags follow
+  std::vector<double> faces;  ///< mm, likewise
 };
 
 /// `size`, or finer where a full circle of the entity's curvature would get fewer than `per_circle` elements (0: never), not below size / 6.

@@ -207,7 +207,7 @@ class Evaluator::Work {
     draft.options.ignored = own_.ignored_;
     draft.options.edge_chains = edge_chains(model_, s.tets);
     const std::vector<char> out = own_.structures_.left_out(plan.structure);
-    for (int e = 1; e <= model_.edge_count(); ++e) {
+    for (const int e : model_.edges()) {
       if (out[e] && !own_.ignored_[e]) draft.options.edge_chains[e].clear();
     }
     draft.quantization = clock_.stage("quantize", [&] { return quantized(plan, s, draft.options, roomy, divisions); });
@@ -359,10 +359,10 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   r.hexes = static_cast<int>(result.mesh.hexes.size());
   r.nodes = static_cast<int>(result.mesh.points.size());
   std::vector<int> real;
-  for (int e = 1; e <= model_.edge_count(); ++e) {
+  for (const int e : model_.edges()) {
     if (!model_.edge(e).seam && !model_.edge(e).degenerate && !model_.edge(e).tiny) real.push_back(e);
   }
-  r.capture = capture(result.association, model_.vertex_count(), real, model_.face_count());
+  r.capture = capture(result.association, static_cast<int>(model_.vertices().size()), real, static_cast<int>(model_.faces().size()));
   r.stages = clock_.records();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -47,7 +47,7 @@ bool drop(const CadModel& model, const PaddedMesh& padded, const std::vector<cha
 
 bool give_up_edges(const CadModel& model, const FaceList& keep_faces, const PaddedMesh& padded, int count, AssociateOptions& options, const Monitor& monitor) {
   std::vector<char> kept(static_cast<std::size_t>(model.edge_count()) + 1, 0);
-  for (int e = 1; e <= model.edge_count(); ++e) {
+  for (const int e : model.edges()) {
     for (int f : model.edge(e).faces) kept[e] |= std::find(keep_faces.begin(), keep_faces.end(), f) != keep_faces.end();
   }
   return drop(model, padded, kept, kSmoothBend, count, options, monitor) || drop(model, padded, kept, std::numbers::pi, count, options, monitor) ||

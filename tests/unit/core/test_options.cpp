@@ -141,15 +141,16 @@ TEST(Options, FacesToKeepAreReadSortedAndOnce) {
 }
 
 TEST(Options, AgainstThePart) {
+  const std::vector<int> faces{1, 2, 3, 4, 5, 6}, edges{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
   MeshOptions o;
   o.size = 11;
-  EXPECT_THROW(check(o, 10, 6, 12), InvalidInput);
-  EXPECT_NO_THROW(check(o, 12, 6, 12));
+  EXPECT_THROW(check(o, 10, faces, edges), InvalidInput);
+  EXPECT_NO_THROW(check(o, 12, faces, edges));
   o.labels = {{7, 0}};
-  EXPECT_THROW(check(o, 12, 6, 12), InvalidInput);
-  const auto complains = [](const char* name, const char* text) {
+  EXPECT_THROW(check(o, 12, faces, edges), InvalidInput);
+  const auto complains = [&](const char* name, const char* text) {
     try {
-      check(parse_options({{name, text}}), 12, 6, 12);
+      check(parse_options({{name, text}}), 12, faces, edges);
     } catch (const InvalidInput& e) {
       return std::string(e.what());
     }

@@ -1,0 +1,84 @@
+// What every call into OCCT's readers and long algorithms needs: silence, time limits, faults as exceptions.
+#pragma once
+
+#include <Message.hxx>
+#include <Message_Messenger.hxx>
+#include <Message_Printer.hxx>
+#include <Message_ProgressIndicator.hxx>
+#include <OSD.hxx>
+#include <signal.h>
+
+#include <array>
+#include <iostream>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/monitor.h"
+
+namespace polycube {
+
+/// OCCT's readers keep settings and tables in globals, and some of them talk on std::cout: one at a time, in silence.
+class ReaderGuard {
+ public:
+  ReaderGuard() : lock_(mutex()), output_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
+  ~ReaderGuard() { std::cout.rdbuf(output_); }
+  ReaderGuard(const ReaderGuard&) = delete;
+  ReaderGuard& operator=(const ReaderGuard&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::mutex> lock_;
+  std::streambuf* output_;
+};
+
+/// While it lives OCCT turns a segmentation fault of its own into a Standard_Failure, which its transfer catches entity by entity: references
+/// of the wrong kind in a damaged file end there. The process' own handlers come back afterwards.
+class SignalGuard {
+ public:
+  SignalGuard() : lock_(mutex()) {
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &before_[i]);
+    OSD::SetSignal(Standard_False);
+    // Interrupts stay with whoever handles them.
+    for (std::size_t i = kFaults; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  ~SignalGuard() {
+    for (std::size_t i = 0; i < kFaults; ++i) sigaction(kSignals[i], &before_[i], nullptr);
+  }
+  SignalGuard(const SignalGuard&) = delete;
+  SignalGuard& operator=(const SignalGuard&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::mutex> lock_;
+  static constexpr std::size_t kFaults = 5;
+  static constexpr std::array<int, 9> kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
+  std::array<struct sigaction, 9> before_{};
+};
+
+/// Ends OCCT's call that was given Start() of it as soon as the monitor wants a stop. What the call leaves then is not whole: ask monitor.check() next.
+class OcctProgress : public Message_ProgressIndicator {
+ public:
+  explicit OcctProgress(const Monitor& monitor) : monitor_(monitor) {}
+  Standard_Boolean UserBreak() override { return stopped(monitor_); }
+  void Show(const Message_ProgressScope&, const Standard_Boolean) override {}
+
+  static bool stopped(const Monitor& monitor) {
+    try {
+      monitor.check();
+      return false;
+    } catch (const Cancelled&) {
+      return true;
+    }
+  }
+
+ private:
+  const Monitor& monitor_;
+};
+
+}  // namespace polycube

@@ -1,0 +1,277 @@
+// The one solid of a shape as read, or the one that its faces sew to, and the refusals.
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_MakeSolid.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Precision.hxx>
+#include <Standard_Failure.hxx>
+#include <TopAbs_ShapeEnum.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Shell.hxx>
+#include <TopoDS_Solid.hxx>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "cad/occt.h"
+#include "cad/shape.h"
+
+namespace polycube {
+namespace {
+
+// Largest and smallest size of a part that double precision and OCCT's absolute confusion of 1e-7 mm leave room for.
+constexpr double kLargest = 1e8, kSmallest = 1e-4;
+constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE};
+
+int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum avoid = TopAbs_SHAPE) {
+  TopTools_IndexedMapOfShape map;
+  for (TopExp_Explorer it(shape, kind, avoid); it.More(); it.Next()) map.Add(it.Current());
+  return map.Extent();
+}
+
+std::string plural(int number, const std::string& one, const std::string& many) { return std::to_string(number) + " " + (number == 1 ? one : many); }
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// The numbers that the entities of `whole` have, for those of `solid` that they became: the least one where several became one. What is new gets
+/// numbers after all of these.
+Numbering numbering(const TopoDS_Shape& whole, const TopoDS_Shape& solid, const std::function<TopoDS_Shape(const TopoDS_Shape&)>& became) {
+  Numbering numbers;
+  for (std::size_t dim = 0; dim < 3; ++dim) {
+    TopTools_IndexedMapOfShape before, after;
+    TopExp::MapShapes(whole, kKinds[dim], before);
+    TopExp::MapShapes(solid, kKinds[dim], after);
+    numbers[dim].assign(static_cast<std::size_t>(after.Extent()), 0);
+    for (int i = 1; i <= before.Extent(); ++i) {
+      for (TopExp_Explorer it(became(before(i)), kKinds[dim]); it.More(); it.Next()) {
+        const int at = after.FindIndex(it.Current());
+        if (at == 0 || numbers[dim][static_cast<std::size_t>(at) - 1] != 0) continue;
+        numbers[dim][static_cast<std::size_t>(at) - 1] = i;
+        break;
+      }
+    }
+    int next = before.Extent();
+    for (int& number : numbers[dim]) number = number == 0 ? ++next : number;
+  }
+  return numbers;
+}
+
+std::string name_of(const Numbering& numbers, int dim, int at) { return name({dim, numbers[static_cast<std::size_t>(dim)][static_cast<std::size_t>(at) - 1]}); }
+
+void check_coordinates(const TopoDS_Shape& shape, const Numbering& numbers) {
+  TopTools_IndexedMapOfShape vertices;
+  TopExp::MapShapes(shape, TopAbs_VERTEX, vertices);
+  for (int i = 1; i <= vertices.Extent(); ++i) {
+    const gp_Pnt p = BRep_Tool::Pnt(TopoDS::Vertex(vertices(i)));
+    for (int k = 1; k <= 3; ++k)
+      if (!std::isfinite(p.Coord(k)) || std::abs(p.Coord(k)) > kLargest) throw InvalidInput(name_of(numbers, 0, i) + " has no usable coordinates");
+  }
+}
+
+/// Every edge bounds exactly two faces, or the same face twice, or is a mere point.
+void check_closed(const TopoDS_Shape& shape, const Numbering& numbers) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
+  for (int i = 1; i <= edges.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(i));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const int uses = faces_of.Contains(edge) ? faces_of.FindFromKey(edge).Extent() : 0;
+    if (uses < 2) throw InvalidInput("the shape is open at " + name_of(numbers, 1, i));
+    if (uses > 2) throw InvalidInput("more than two faces meet at " + name_of(numbers, 1, i));
+  }
+}
+
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(shape, properties);
+  return properties.Mass();
+}
+
+void validate_unguarded(const TopoDS_Shape& shape, const Numbering& numbers, const Monitor& monitor) {
+  if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the solid has no face");
+  check_coordinates(shape, numbers);
+  check_closed(shape, numbers);
+  monitor.check();
+  const BRepCheck_Analyzer analyzer(shape);
+  monitor.check();
+  if (!analyzer.IsValid()) {
+    for (int dim = 2; dim >= 0; --dim) {
+      TopTools_IndexedMapOfShape map;
+      TopExp::MapShapes(shape, kKinds[static_cast<std::size_t>(dim)], map);
+      for (int i = 1; i <= map.Extent(); ++i)
+        if (!analyzer.IsValid(map(i))) throw InvalidInput("the shape is not valid at " + name_of(numbers, dim, i) + " (OpenCASCADE's check)");
+    }
+    throw InvalidInput("the solid is not valid (OpenCASCADE's check)");
+  }
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  const double diagonal = box.IsVoid() ? 0 : std::sqrt(box.SquareExtent());
+  if (!(diagonal > kSmallest && diagonal < kLargest)) throw InvalidInput("the solid's size is not usable: " + std::to_string(diagonal) + " mm across");
+  const double volume = volume_of(shape);
+  if (!std::isfinite(volume) || std::abs(volume) < 1e-12 * std::pow(diagonal, 3)) throw InvalidInput("the solid has no volume");
+  if (volume < 0) throw InvalidInput("the solid is inside out: its volume is negative");
+  // The box has OCCT's safety margins, so this can only fail on faces that cross each other.
+  if (volume > 1.01 * std::pow(diagonal, 3)) throw InvalidInput("the solid intersects itself");
+}
+
+/// What the shape holds beside its solid, as a warning; empty for nothing.
+std::string beside(const TopoDS_Shape& whole, const TopoDS_Shape& solid) {
+  const int faces = count(whole, TopAbs_FACE) - count(solid, TopAbs_FACE);
+  const int edges = count(whole, TopAbs_EDGE, TopAbs_FACE), vertices = count(whole, TopAbs_VERTEX, TopAbs_EDGE);
+  std::string text;
+  const auto add = [&](int number, const char* one, const char* many) {
+    if (number > 0) text += (text.empty() ? "" : ", ") + plural(number, one, many);
+  };
+  add(faces, "loose face", "loose faces");
+  add(edges, "loose edge", "loose edges");
+  add(vertices, "loose vertex", "loose vertices");
+  return text.empty() ? text : "left out beside the solid: " + text;
+}
+
+/// Distances within which the faces may be sewn, least first: OCCT's confusion, what the file declares, and what its own entities claim.
+std::vector<double> sewing_distances(const FileShape& read) {
+  double claimed = 0;
+  for (const TopAbs_ShapeEnum kind : {TopAbs_VERTEX, TopAbs_EDGE}) {
+    TopTools_IndexedMapOfShape map;
+    TopExp::MapShapes(read.shape, kind, map);
+    for (int i = 1; i <= map.Extent(); ++i)
+      claimed = std::max(claimed, kind == TopAbs_VERTEX ? BRep_Tool::Tolerance(TopoDS::Vertex(map(i))) : BRep_Tool::Tolerance(TopoDS::Edge(map(i))));
+  }
+  std::vector<double> result{Precision::Confusion(), read.tolerance, claimed};
+  std::sort(result.begin(), result.end());
+  result.erase(std::remove_if(result.begin(), result.end(), [](double d) { return !(d >= Precision::Confusion()) || !std::isfinite(d); }), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// One solid of closed shells: one of them, and the others inside it as voids.
+TopoDS_Solid solid_of(const std::vector<TopoDS_Shell>& shells) {
+  std::vector<std::pair<double, TopoDS_Solid>> solids;
+  for (const TopoDS_Shell& shell : shells) {
+    TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(shell);
+    BRepLib::OrientClosedSolid(solid);
+    solids.emplace_back(volume_of(solid), solid);
+  }
+  std::stable_sort(solids.begin(), solids.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  TopoDS_Solid result = solids.front().second;
+  BRepClass3d_SolidClassifier outer(result);
+  for (std::size_t i = 1; i < solids.size(); ++i) {
+    const TopExp_Explorer vertex(solids[i].second, TopAbs_VERTEX), shell(solids[i].second, TopAbs_SHELL);
+    outer.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())), Precision::Confusion());
+    if (outer.State() != TopAbs_IN) throw InvalidInput("the shape's faces sew to " + std::to_string(solids.size()) + " solids; one is needed");
+    BRep_Builder().Add(result, shell.Current().Reversed());
+  }
+  return result;
+}
+
+/// The solid that the shape's faces sew to within the distance. Throws InvalidInput where there is none.
+Found sew(const FileShape& read, double distance, const Monitor& monitor) {
+  BRepBuilderAPI_Sewing sewing(distance);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(read.shape, TopAbs_FACE, faces);
+  for (int i = 1; i <= faces.Extent(); ++i) sewing.Add(faces(i));
+  const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
+  sewing.Perform(progress->Start());
+  monitor.check();
+  const auto became = [&](const TopoDS_Shape& shape) {
+    if (shape.ShapeType() == TopAbs_FACE && sewing.IsModified(shape)) return sewing.Modified(shape);
+    return sewing.IsModifiedSubShape(shape) ? sewing.ModifiedSubShape(shape) : shape;
+  };
+  const std::string start = "the shape is a shell or loose faces, not a solid: sewn within " + number_text(distance) + " mm ";
+  const TopoDS_Shape sewn = sewing.SewedShape();
+  if (sewn.IsNull()) throw InvalidInput(start + "nothing is left of it");
+  const Numbering numbers = numbering(read.shape, sewn, became);
+  if (sewing.NbFreeEdges() > 0) {
+    TopTools_IndexedMapOfShape edges;
+    TopExp::MapShapes(sewn, TopAbs_EDGE, edges);
+    const int at = edges.FindIndex(sewing.FreeEdge(1));
+    throw InvalidInput(start + "it is open at " + (at > 0 ? name_of(numbers, 1, at) + " and " : "") + plural(sewing.NbFreeEdges() - (at > 0), "edge", "edges") +
+                       (at > 0 ? " more" : ""));
+  }
+  if (sewing.NbMultipleEdges() > 0) throw InvalidInput(start + plural(sewing.NbMultipleEdges(), "edge has", "edges have") + " more than two faces");
+  std::vector<TopoDS_Shell> shells;
+  for (TopExp_Explorer it(sewn, TopAbs_SHELL); it.More(); it.Next()) shells.push_back(TopoDS::Shell(it.Current()));
+  for (TopExp_Explorer it(sewn, TopAbs_FACE, TopAbs_SHELL); it.More(); it.Next()) {
+    // A face that is closed in itself, as a sphere's.
+    BRep_Builder().MakeShell(shells.emplace_back());
+    BRep_Builder().Add(shells.back(), it.Current());
+    shells.back().Closed(true);
+  }
+  if (shells.empty()) throw InvalidInput(start + "no shell comes of it");
+  Found found{solid_of(shells), {}, {}};
+  found.numbers = numbering(read.shape, found.solid, became);
+  found.warnings.push_back("the shape is no solid: its " + plural(faces.Extent(), "face is", "faces are") + " sewn to one within " + number_text(distance) + " mm");
+  const int edges = count(read.shape, TopAbs_EDGE, TopAbs_FACE), vertices = count(read.shape, TopAbs_VERTEX, TopAbs_EDGE);
+  if (edges + vertices > 0) found.warnings.push_back("left out beside the faces: " + plural(edges, "loose edge", "loose edges") + ", " + plural(vertices, "loose vertex", "loose vertices"));
+  return found;
+}
+
+Found sew(const FileShape& read, const Monitor& monitor) {
+  const std::vector<double> distances = sewing_distances(read);
+  for (std::size_t i = 0;; ++i) {
+    try {
+      Found found = sew(read, distances[i], monitor);
+      validate(found.solid, found.numbers, monitor);
+      return found;
+    } catch (const InvalidInput&) {
+      if (i + 1 == distances.size()) throw;
+    }
+  }
+}
+
+Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor& monitor) {
+  const TopoDS_Shape& shape = read.shape;
+  if (shape.IsNull()) throw InvalidInput("the shape is empty");
+  const int solids = count(shape, TopAbs_SOLID);
+  if (solids > 1) throw InvalidInput("the shape holds " + std::to_string(solids) + " solids; one is needed");
+  if (solids == 0) {
+    if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the shape is empty: it has no face");
+    if (!sew_faces) throw InvalidInput("the shape is a shell or loose faces, not a solid");
+    return sew(read, monitor);
+  }
+  Found found{shape, {}, {}};
+  if (std::string left_out = beside(shape, TopExp_Explorer(shape, TopAbs_SOLID).Current()); !left_out.empty()) {
+    found.solid = TopExp_Explorer(shape, TopAbs_SOLID).Current();
+    found.warnings.push_back(std::move(left_out));
+  }
+  found.numbers = numbering(shape, found.solid, [](const TopoDS_Shape& entity) { return entity; });
+  validate(found.solid, found.numbers, monitor);
+  return found;
+}
+
+}  // namespace
+
+Found find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor) {
+  const SignalGuard signals;
+  try {
+    return find_solid_unguarded(read, sew_faces, monitor);
+  } catch (const Standard_Failure& failure) {
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+  }
+}
+
+void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor) {
+  try {
+    validate_unguarded(solid, numbers, monitor);
+  } catch (const Standard_Failure& failure) {
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+  }
+}
+
+}  // namespace polycube

@@ -1,0 +1,169 @@
+// STEP: what of the file is damaged, whether the solid uses it, and the shape of the rest.
+#include <IFSelect_ReturnStatus.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_EntityIterator.hxx>
+#include <Interface_Graph.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <STEPConstruct_UnitContext.hxx>
+#include <STEPControl_Reader.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepRepr_HArray1OfRepresentationItem.hxx>
+#include <StepRepr_Representation.hxx>
+#include <StepRepr_RepresentationContext.hxx>
+#include <StepShape_FaceBasedSurfaceModel.hxx>
+#include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepShape_SolidModel.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <algorithm>
+#include <fstream>
+
+#include "cad/occt.h"
+#include "cad/shape.h"
+
+namespace polycube {
+namespace {
+
+using Entity = opencascade::handle<Standard_Transient>;
+using Item = opencascade::handle<StepRepr_RepresentationItem>;
+using Representation = opencascade::handle<StepRepr_Representation>;
+
+/// A file that seems to end when the monitor wants a stop: OCCT's parser has no other way out.
+class StoppableFile : public std::filebuf {
+ public:
+  StoppableFile(const std::string& path, const Monitor& monitor) : monitor_(monitor) { open(path, std::ios::in | std::ios::binary); }
+
+ protected:
+  int_type underflow() override { return OcctProgress::stopped(monitor_) ? traits_type::eof() : std::filebuf::underflow(); }
+  std::streamsize xsgetn(char* to, std::streamsize count) override { return OcctProgress::stopped(monitor_) ? 0 : std::filebuf::xsgetn(to, count); }
+
+ private:
+  const Monitor& monitor_;
+};
+
+/// Whether the file's faults at the entity are names that are missing, and now are empty.
+bool only_nameless(const Entity& entity, int fails) {
+  const opencascade::handle<TCollection_HAsciiString> empty = new TCollection_HAsciiString("");
+  if (const Item item = Item::DownCast(entity)) {
+    if (!item->Name().IsNull() || fails > 1) return false;
+    item->SetName(empty);
+    return true;
+  }
+  const Representation representation = Representation::DownCast(entity);
+  if (representation.IsNull() || representation->Items().IsNull() || representation->ContextOfItems().IsNull()) return false;
+  if (representation->Name().IsNull()) representation->SetName(empty);
+  return true;  // items that could not be read are null; they are left out later
+}
+
+bool is_solid(const Entity& entity) { return entity->IsKind(STANDARD_TYPE(StepShape_SolidModel)); }
+
+bool is_surface(const Entity& entity) {
+  return entity->IsKind(STANDARD_TYPE(StepShape_ShellBasedSurfaceModel)) || entity->IsKind(STANDARD_TYPE(StepShape_FaceBasedSurfaceModel));
+}
+
+/// What matters of a file's entities: geometry and topology, the representations that hold them, and what OCCT could not make out at all.
+bool is_shape(const Entity& entity) {
+  const std::string type = entity->DynamicType()->Name();
+  return type.rfind("StepShape_", 0) == 0 || type.rfind("StepGeom_", 0) == 0 || type.rfind("StepData_", 0) == 0 ||
+         entity->IsKind(STANDARD_TYPE(StepRepr_Representation)) || entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationItem));
+}
+
+/// Leaves out the items that are null or among `tainted` (by number in the model).
+void drop_items(const Interface_InterfaceModel& model, const Representation& representation, const std::vector<char>& tainted) {
+  const auto items = representation->Items();
+  if (items.IsNull()) return;
+  std::vector<Item> kept;
+  for (const Item& item : *items) {
+    const int number = item.IsNull() ? 0 : model.Number(item);
+    if (!item.IsNull() && (number == 0 || !tainted[static_cast<std::size_t>(number)])) kept.push_back(item);
+  }
+  if (static_cast<int>(kept.size()) == items->Length()) return;
+  opencascade::handle<StepRepr_HArray1OfRepresentationItem> rest;
+  if (!kept.empty()) {
+    rest = new StepRepr_HArray1OfRepresentationItem(1, static_cast<int>(kept.size()));
+    for (std::size_t i = 0; i < kept.size(); ++i) rest->SetValue(static_cast<int>(i) + 1, kept[i]);
+  }
+  representation->SetItems(rest);
+}
+
+/// OCCT marks entities whose parameters it could not read, and then follows their null references into a crash. Where a solid (or, in a file without
+/// one, a surface model) is built on such an entity the file is refused; elsewhere everything that is built on it is left out, as if the file had not held it.
+void leave_out_damaged(const STEPControl_Reader& reader, const std::string& path) {
+  const opencascade::handle<Interface_InterfaceModel> model = reader.WS()->Model();
+  Interface_CheckIterator checks = reader.WS()->ModelCheckList();
+  std::vector<int> damaged;
+  for (checks.Start(); checks.More(); checks.Next()) {
+    if (!checks.Value()->HasFailed()) continue;
+    if (checks.Number() == 0) throw InvalidInput(path + ": the STEP file is damaged");
+    const Entity& entity = model->Value(checks.Number());
+    if (is_shape(entity) && !only_nameless(entity, checks.Value()->NbFails())) damaged.push_back(checks.Number());
+  }
+  const int count = model->NbEntities();
+  bool solids = false;
+  for (int i = 1; i <= count; ++i) solids = solids || is_solid(model->Value(i));
+  const auto needed = [&](const Entity& entity) { return solids ? is_solid(entity) : is_surface(entity); };
+
+  const Interface_Graph graph(model);
+  std::vector<char> tainted(static_cast<std::size_t>(count) + 1, 0);
+  for (const int start : damaged) {
+    const auto refuse = [&] { return InvalidInput(path + ": the STEP file is damaged at entity " + model->StringLabel(model->Value(start))->ToCString()); };
+    std::vector<int> stack{start};
+    while (!stack.empty()) {
+      const int at = stack.back();
+      stack.pop_back();
+      if (tainted[static_cast<std::size_t>(at)]) continue;
+      tainted[static_cast<std::size_t>(at)] = 1;
+      const Entity& entity = model->Value(at);
+      if (needed(entity)) throw refuse();
+      if (const Representation representation = Representation::DownCast(entity)) {
+        if (at != start) continue;  // it does without the item
+        // Without its context a representation has no units.
+        const auto items = representation->Items();
+        if (!items.IsNull() && std::any_of(items->begin(), items->end(), [&](const Item& item) { return !item.IsNull() && needed(item); })) throw refuse();
+      }
+      for (Interface_EntityIterator users = graph.Sharings(entity); users.More(); users.Next()) {
+        if (const int user = model->Number(users.Value()); user > 0) stack.push_back(user);
+      }
+    }
+  }
+  for (int i = 1; i <= count; ++i) {
+    if (const Representation representation = Representation::DownCast(model->Value(i))) drop_items(*model, representation, tainted);
+  }
+}
+
+/// The largest uncertainty of lengths that the file declares, mm; 0 where it declares none.
+double declared_tolerance(const Interface_InterfaceModel& model) {
+  double largest = 0;
+  for (int i = 1; i <= model.NbEntities(); ++i) {
+    const auto context = opencascade::handle<StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx>::DownCast(model.Value(i));
+    if (context.IsNull() || context->GlobalUnitAssignedContext().IsNull() || context->GlobalUncertaintyAssignedContext().IsNull()) continue;
+    STEPConstruct_UnitContext units;
+    units.ComputeFactors(context->GlobalUnitAssignedContext());
+    units.ComputeTolerance(context->GlobalUncertaintyAssignedContext());
+    if (units.HasUncertainty()) largest = std::max(largest, units.Uncertainty() * units.LengthFactor());
+  }
+  return largest;
+}
+
+}  // namespace
+
+FileShape read_step(const std::string& path, const Monitor& monitor) {
+  const ReaderGuard guard;
+  const SignalGuard signals;
+  STEPControl_Reader reader;
+  StoppableFile file(path, monitor);
+  std::istream stream(&file);
+  const IFSelect_ReturnStatus status = reader.ReadStream(path.c_str(), stream);
+  monitor.check();
+  if (status != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
+  leave_out_damaged(reader, path);
+  const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
+  reader.TransferRoots(progress->Start());
+  monitor.check();
+  if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
+  return {reader.OneShape(), declared_tolerance(*reader.WS()->Model())};
+}
+
+}  // namespace polycube

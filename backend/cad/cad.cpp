@@ -14,10 +14,11 @@ namespace polycube {
 namespace {
 
 std::shared_ptr<const CadModel::Shape> checked(const FileShape& read, bool sew, const Monitor& monitor) {
-  Found found = find_solid(read, sew, monitor);
+  const Found found = find_solid(read, sew, monitor);
   try {
     auto shape = describe(found.solid, found.numbers, monitor);
-    shape->warnings = std::move(found.warnings);
+    shape->warnings = read.warnings;
+    shape->warnings.insert(shape->warnings.end(), found.warnings.begin(), found.warnings.end());
     return shape;
   } catch (const Standard_Failure& failure) {
     throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + std::string(failure.GetMessageString()));

@@ -208,7 +208,7 @@ class Document {
         shape = stored_shape(*tip, monitor);
         place = place_of(*tip);
       }
-      return {shape.Moved(TopLoc_Location(place)), 0};
+      return {shape.Moved(TopLoc_Location(place)), 0, {}};
     } catch (const InvalidInput& error) {
       throw InvalidInput(path_ + ": " + object.title() + ": " + error.what());
     }

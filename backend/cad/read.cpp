@@ -35,7 +35,7 @@ FileShape read_iges(const std::string& path, const Monitor& monitor) {
   monitor.check();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the IGES file holds no shape");
   const IGESData_GlobalSection& header = reader.IGESModel()->GlobalSection();
-  return {reader.OneShape(), header.Resolution() * header.UnitValue()};
+  return {reader.OneShape(), header.Resolution() * header.UnitValue(), {}};
 }
 
 FileShape read_brep(std::istream& stream, const Monitor& monitor) {

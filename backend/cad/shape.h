@@ -96,6 +96,7 @@ struct CadModel::Shape {
 struct FileShape {
   TopoDS_Shape shape;
   double tolerance = 0;  ///< mm: what the file declares for all of it, 0 where its format has no such thing
+  std::vector<std::string> warnings{};
 };
 
 /// The solid of a shape as read. Its entities have the numbers of that whole shape.

@@ -63,11 +63,24 @@ bool is_surface(const Entity& entity) {
   return entity->IsKind(STANDARD_TYPE(StepShape_ShellBasedSurfaceModel)) || entity->IsKind(STANDARD_TYPE(StepShape_FaceBasedSurfaceModel));
 }
 
-/// What matters of a file's entities: geometry and topology, the representations that hold them, and what OCCT could not make out at all.
+/// What matters of a file's entities: geometry and topology, the representations that hold them, their units, and what OCCT could not make out at all.
 bool is_shape(const Entity& entity) {
   const std::string type = entity->DynamicType()->Name();
-  return type.rfind("StepShape_", 0) == 0 || type.rfind("StepGeom_", 0) == 0 || type.rfind("StepData_", 0) == 0 ||
-         entity->IsKind(STANDARD_TYPE(StepRepr_Representation)) || entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationItem));
+  const auto starts = [&](const char* text) { return type.rfind(text, 0) == 0; };
+  return starts("StepShape_") || starts("StepGeom_") || starts("StepData_") || (starts("StepBasic_") && type.find("Unit") != std::string::npos) ||
+         entity->IsKind(STANDARD_TYPE(StepRepr_Representation)) || entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationItem)) ||
+         entity->IsKind(STANDARD_TYPE(StepRepr_RepresentationContext));
+}
+
+/// Whether the file has the end that the format demands.
+bool is_whole(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  constexpr std::streamoff kTail = 4096;  // signatures and blank lines may follow
+  const std::streamoff size = file.tellg();
+  std::string tail(static_cast<std::size_t>(std::min(size, kTail)), '\0');
+  file.seekg(size - static_cast<std::streamoff>(tail.size()));
+  file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  return tail.find("END-ISO-10303-21") != std::string::npos;
 }
 
 /// Leaves out the items that are null or among `tainted` (by number in the model).
@@ -90,13 +103,19 @@ void drop_items(const Interface_InterfaceModel& model, const Representation& rep
 
 /// OCCT marks entities whose parameters it could not read, and then follows their null references into a crash. Where a solid (or, in a file without
 /// one, a surface model) is built on such an entity the file is refused; elsewhere everything that is built on it is left out, as if the file had not held it.
-void leave_out_damaged(const STEPControl_Reader& reader, const std::string& path) {
+/// What the parser could not read at all is missing from the entities that refer to it, which are marked too. Returns how many faults there were.
+int leave_out_damaged(const STEPControl_Reader& reader, const std::string& path) {
   const opencascade::handle<Interface_InterfaceModel> model = reader.WS()->Model();
   Interface_CheckIterator checks = reader.WS()->ModelCheckList();
   std::vector<int> damaged;
+  int faults = 0;
   for (checks.Start(); checks.More(); checks.Next()) {
     if (!checks.Value()->HasFailed()) continue;
-    if (checks.Number() == 0) throw InvalidInput(path + ": the STEP file is damaged");
+    if (checks.Number() == 0) {
+      if (!is_whole(path)) throw InvalidInput(path + ": the STEP file is cut short");
+      faults += checks.Value()->NbFails();
+      continue;
+    }
     const Entity& entity = model->Value(checks.Number());
     if (is_shape(entity) && !only_nameless(entity, checks.Value()->NbFails())) damaged.push_back(checks.Number());
   }
@@ -118,8 +137,12 @@ void leave_out_damaged(const STEPControl_Reader& reader, const std::string& path
       const Entity& entity = model->Value(at);
       if (needed(entity)) throw refuse();
       if (const Representation representation = Representation::DownCast(entity)) {
-        if (at != start) continue;  // it does without the item
-        // Without its context a representation has no units.
+        const auto context = representation->ContextOfItems();
+        // It does without an item, but without its context it has no units.
+        if (at != start && !context.IsNull() && !tainted[static_cast<std::size_t>(model->Number(context))]) {
+          tainted[static_cast<std::size_t>(at)] = 0;
+          continue;
+        }
         const auto items = representation->Items();
         if (!items.IsNull() && std::any_of(items->begin(), items->end(), [&](const Item& item) { return !item.IsNull() && needed(item); })) throw refuse();
       }
@@ -131,6 +154,7 @@ void leave_out_damaged(const STEPControl_Reader& reader, const std::string& path
   for (int i = 1; i <= count; ++i) {
     if (const Representation representation = Representation::DownCast(model->Value(i))) drop_items(*model, representation, tainted);
   }
+  return faults + static_cast<int>(damaged.size());
 }
 
 /// The largest uncertainty of lengths that the file declares, mm; 0 where it declares none.
@@ -158,12 +182,14 @@ FileShape read_step(const std::string& path, const Monitor& monitor) {
   const IFSelect_ReturnStatus status = reader.ReadStream(path.c_str(), stream);
   monitor.check();
   if (status != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
-  leave_out_damaged(reader, path);
+  const int faults = leave_out_damaged(reader, path);
   const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
   reader.TransferRoots(progress->Start());
   monitor.check();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
-  return {reader.OneShape(), declared_tolerance(*reader.WS()->Model())};
+  FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
+  if (faults > 0) read.warnings.push_back("the STEP file is damaged where the part does not need it (" + std::to_string(faults) + (faults == 1 ? " fault)" : " faults)"));
+  return read;
 }
 
 }  // namespace polycube

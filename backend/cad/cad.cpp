@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "cad/occt.h"
 #include "cad/shape.h"
 #include "core/error.h"
 
@@ -16,7 +17,7 @@ namespace {
 std::shared_ptr<const CadModel::Shape> checked(const FileShape& read, bool sew, const Monitor& monitor) {
   const Found found = find_solid(read, sew, monitor);
   try {
-    auto shape = describe(found.solid, found.numbers, monitor);
+    const auto shape = catching_faults([&] { return describe(found.solid, found.numbers, monitor); });
     shape->warnings = read.warnings;
     shape->warnings.insert(shape->warnings.end(), found.warnings.begin(), found.warnings.end());
     return shape;

@@ -6,6 +6,7 @@
 #include <Message_Printer.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <OSD.hxx>
+#include <Standard_ErrorHandler.hxx>
 #include <signal.h>
 
 #include <array>
@@ -34,8 +35,7 @@ class ReaderGuard {
   std::streambuf* output_;
 };
 
-/// While it lives OCCT turns a segmentation fault of its own into a Standard_Failure, which its transfer catches entity by entity: references
-/// of the wrong kind in a damaged file end there. The process' own handlers come back afterwards.
+/// While it lives OCCT jumps from a segmentation fault of its own to the nearest OCC_CATCH_SIGNALS. The process' own handlers come back afterwards.
 class SignalGuard {
  public:
   SignalGuard() : lock_(mutex()) {
@@ -60,6 +60,15 @@ class SignalGuard {
   static constexpr std::array<int, 9> kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
   std::array<struct sigaction, 9> before_{};
 };
+
+/// Runs code of OCCT's. A fault in it, as references of the wrong kind in a damaged file give, comes out as a Standard_Failure. What the work itself
+/// holds then is never destroyed: locks and the like must live outside.
+template <class Work>
+auto catching_faults(const Work& work) {
+  const SignalGuard signals;
+  OCC_CATCH_SIGNALS
+  return work();
+}
 
 /// Ends OCCT's call that was given Start() of it as soon as the monitor wants a stop. What the call leaves then is not whole: ask monitor.check() next.
 class OcctProgress : public Message_ProgressIndicator {

@@ -22,9 +22,7 @@ std::string lower_extension(const std::string& path) {
   return extension;
 }
 
-FileShape read_iges(const std::string& path, const Monitor& monitor) {
-  const ReaderGuard guard;
-  const SignalGuard signals;
+FileShape transfer_iges(const std::string& path, const Monitor& monitor) {
   IGESControl_Reader reader;
   // As FreeCAD: what the file marks as hidden is construction.
   reader.SetReadVisible(true);
@@ -38,14 +36,18 @@ FileShape read_iges(const std::string& path, const Monitor& monitor) {
   return {reader.OneShape(), header.Resolution() * header.UnitValue(), {}};
 }
 
+FileShape read_iges(const std::string& path, const Monitor& monitor) {
+  const ReaderGuard guard;
+  return catching_faults([&] { return transfer_iges(path, monitor); });
+}
+
 FileShape read_brep(std::istream& stream, const Monitor& monitor) {
   const ReaderGuard guard;
-  const SignalGuard signals;
   const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
   FileShape read;
   // At the end of a text cut short OCCT would read on forever; an exception ends that.
   stream.exceptions(std::ios::failbit | std::ios::badbit);
-  BRepTools::Read(read.shape, stream, BRep_Builder(), progress->Start());
+  catching_faults([&] { BRepTools::Read(read.shape, stream, BRep_Builder(), progress->Start()); });
   monitor.check();
   return read;
 }
@@ -69,8 +71,10 @@ FileShape read_shape(const std::string& path, const ReadOptions& options, const 
     if (read.shape.IsNull()) throw InvalidInput(path + ": not a BREP file");
     return read;
   } catch (const Standard_Failure&) {
+    monitor.check();  // a call that was stopped may end so
     throw InvalidInput(path + ": OpenCASCADE cannot read the file");
   } catch (const std::ios_base::failure&) {
+    monitor.check();
     throw InvalidInput(path + ": the file is cut short or damaged");
   }
 }
@@ -82,8 +86,10 @@ FileShape parse_brep(const std::string& text, const Monitor& monitor) {
     if (read.shape.IsNull()) throw InvalidInput("not a BREP shape");
     return read;
   } catch (const Standard_Failure&) {
+    monitor.check();  // a call that was stopped may end so
     throw InvalidInput("OpenCASCADE cannot read the BREP shape");
   } catch (const std::ios_base::failure&) {
+    monitor.check();
     throw InvalidInput("the BREP shape is cut short or damaged");
   }
 }

@@ -97,6 +97,17 @@ void check_closed(const TopoDS_Shape& shape, const Numbering& numbers) {
   }
 }
 
+/// An edge of one face only; null where the shape is closed.
+TopoDS_Edge first_open_edge(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  for (int i = 1; i <= faces_of.Extent(); ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
+    if (faces_of(i).Extent() < 2 && !BRep_Tool::Degenerated(edge)) return edge;
+  }
+  return {};
+}
+
 double volume_of(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::VolumeProperties(shape, properties);
@@ -130,10 +141,8 @@ void validate_unguarded(const TopoDS_Shape& shape, const Numbering& numbers, con
   if (volume > 1.01 * std::pow(diagonal, 3)) throw InvalidInput("the solid intersects itself");
 }
 
-/// What the shape holds beside its solid, as a warning; empty for nothing.
-std::string beside(const TopoDS_Shape& whole, const TopoDS_Shape& solid) {
-  const int faces = count(whole, TopAbs_FACE) - count(solid, TopAbs_FACE);
-  const int edges = count(whole, TopAbs_EDGE, TopAbs_FACE), vertices = count(whole, TopAbs_VERTEX, TopAbs_EDGE);
+/// What is left out beside the solid, as a warning; empty for nothing.
+std::string beside(int faces, int edges, int vertices) {
   std::string text;
   const auto add = [&](int number, const char* one, const char* many) {
     if (number > 0) text += (text.empty() ? "" : ", ") + plural(number, one, many);
@@ -158,6 +167,18 @@ std::vector<double> sewing_distances(const FileShape& read) {
   result.erase(std::remove_if(result.begin(), result.end(), [](double d) { return !(d >= Precision::Confusion()) || !std::isfinite(d); }), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
+}
+
+/// The shells, and shells of the faces that are in none.
+std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
+  std::vector<TopoDS_Shell> shells;
+  for (TopExp_Explorer it(shape, TopAbs_SHELL); it.More(); it.Next()) shells.push_back(TopoDS::Shell(it.Current()));
+  for (TopExp_Explorer it(shape, TopAbs_FACE, TopAbs_SHELL); it.More(); it.Next()) {
+    BRep_Builder().MakeShell(shells.emplace_back());
+    BRep_Builder().Add(shells.back(), it.Current());
+  }
+  for (TopoDS_Shell& shell : shells) shell.Closed(first_open_edge(shell).IsNull());
+  return shells;
 }
 
 /// One solid of closed shells: one of them, and the others inside it as voids.
@@ -197,28 +218,28 @@ Found sew(const FileShape& read, double distance, const Monitor& monitor) {
   const TopoDS_Shape sewn = sewing.SewedShape();
   if (sewn.IsNull()) throw InvalidInput(start + "nothing is left of it");
   const Numbering numbers = numbering(read.shape, sewn, became);
-  if (sewing.NbFreeEdges() > 0) {
+  std::vector<TopoDS_Shell> shells;
+  int open_faces = 0;
+  TopoDS_Edge open_edge;
+  for (TopoDS_Shell& shell : shells_of(sewn)) {
+    if (const TopoDS_Edge edge = first_open_edge(shell); !edge.IsNull()) {
+      open_faces += count(shell, TopAbs_FACE);
+      if (open_edge.IsNull()) open_edge = edge;
+    } else {
+      shells.push_back(shell);
+    }
+  }
+  if (shells.empty() && !open_edge.IsNull()) {
     TopTools_IndexedMapOfShape edges;
     TopExp::MapShapes(sewn, TopAbs_EDGE, edges);
-    const int at = edges.FindIndex(sewing.FreeEdge(1));
-    throw InvalidInput(start + "it is open at " + (at > 0 ? name_of(numbers, 1, at) + " and " : "") + plural(sewing.NbFreeEdges() - (at > 0), "edge", "edges") +
-                       (at > 0 ? " more" : ""));
-  }
-  if (sewing.NbMultipleEdges() > 0) throw InvalidInput(start + plural(sewing.NbMultipleEdges(), "edge has", "edges have") + " more than two faces");
-  std::vector<TopoDS_Shell> shells;
-  for (TopExp_Explorer it(sewn, TopAbs_SHELL); it.More(); it.Next()) shells.push_back(TopoDS::Shell(it.Current()));
-  for (TopExp_Explorer it(sewn, TopAbs_FACE, TopAbs_SHELL); it.More(); it.Next()) {
-    // A face that is closed in itself, as a sphere's.
-    BRep_Builder().MakeShell(shells.emplace_back());
-    BRep_Builder().Add(shells.back(), it.Current());
-    shells.back().Closed(true);
+    throw InvalidInput(start + "it is open at " + name_of(numbers, 1, edges.FindIndex(open_edge)));
   }
   if (shells.empty()) throw InvalidInput(start + "no shell comes of it");
   Found found{solid_of(shells), {}, {}};
   found.numbers = numbering(read.shape, found.solid, became);
-  found.warnings.push_back("the shape is no solid: its " + plural(faces.Extent(), "face is", "faces are") + " sewn to one within " + number_text(distance) + " mm");
-  const int edges = count(read.shape, TopAbs_EDGE, TopAbs_FACE), vertices = count(read.shape, TopAbs_VERTEX, TopAbs_EDGE);
-  if (edges + vertices > 0) found.warnings.push_back("left out beside the faces: " + plural(edges, "loose edge", "loose edges") + ", " + plural(vertices, "loose vertex", "loose vertices"));
+  found.warnings.push_back("the shape is no solid: its " + plural(count(found.solid, TopAbs_FACE), "face is", "faces are") + " sewn to one within " + number_text(distance) + " mm");
+  const std::string left_out = beside(open_faces, count(read.shape, TopAbs_EDGE, TopAbs_FACE), count(read.shape, TopAbs_VERTEX, TopAbs_EDGE));
+  if (!left_out.empty()) found.warnings.push_back(left_out);
   return found;
 }
 
@@ -246,9 +267,12 @@ Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor&
     return sew(read, monitor);
   }
   Found found{shape, {}, {}};
-  if (std::string left_out = beside(shape, TopExp_Explorer(shape, TopAbs_SOLID).Current()); !left_out.empty()) {
+  const int edges = count(shape, TopAbs_EDGE, TopAbs_FACE), vertices = count(shape, TopAbs_VERTEX, TopAbs_EDGE);
+  if (count(shape, TopAbs_FACE, TopAbs_SOLID) + edges + vertices > 0) {
     found.solid = TopExp_Explorer(shape, TopAbs_SOLID).Current();
-    found.warnings.push_back(std::move(left_out));
+    // Faces beside it may be its own, as of a shell that shares them.
+    if (std::string left_out = beside(count(shape, TopAbs_FACE) - count(found.solid, TopAbs_FACE), edges, vertices); !left_out.empty())
+      found.warnings.push_back(std::move(left_out));
   }
   found.numbers = numbering(shape, found.solid, [](const TopoDS_Shape& entity) { return entity; });
   validate(found.solid, found.numbers, monitor);
@@ -258,10 +282,10 @@ Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor&
 }  // namespace
 
 Found find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor) {
-  const SignalGuard signals;
   try {
-    return find_solid_unguarded(read, sew_faces, monitor);
+    return catching_faults([&] { return find_solid_unguarded(read, sew_faces, monitor); });
   } catch (const Standard_Failure& failure) {
+    monitor.check();
     throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
   }
 }
@@ -270,6 +294,7 @@ void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor
   try {
     validate_unguarded(solid, numbers, monitor);
   } catch (const Standard_Failure& failure) {
+    monitor.check();
     throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
   }
 }

@@ -171,11 +171,7 @@ double declared_tolerance(const Interface_InterfaceModel& model) {
   return largest;
 }
 
-}  // namespace
-
-FileShape read_step(const std::string& path, const Monitor& monitor) {
-  const ReaderGuard guard;
-  const SignalGuard signals;
+FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   STEPControl_Reader reader;
   StoppableFile file(path, monitor);
   std::istream stream(&file);
@@ -190,6 +186,13 @@ FileShape read_step(const std::string& path, const Monitor& monitor) {
   FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
   if (faults > 0) read.warnings.push_back("the STEP file is damaged where the part does not need it (" + std::to_string(faults) + (faults == 1 ? " fault)" : " faults)"));
   return read;
+}
+
+}  // namespace
+
+FileShape read_step(const std::string& path, const Monitor& monitor) {
+  const ReaderGuard guard;
+  return catching_faults([&] { return transfer_step(path, monitor); });
 }
 
 }  // namespace polycube

@@ -24,6 +24,11 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
 #include <ShapeCustom.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopExp.hxx>
@@ -298,6 +303,50 @@ std::string compound(const std::string& a, const std::string& b) {
   builder.Add(result, parse(a));
   builder.Add(result, parse(b));
   return text(result);
+}
+
+std::string face_and_solid(const std::string& brep, int face) {
+  const TopoDS_Shape whole = parse(brep);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(whole, TopAbs_FACE, faces);
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  builder.Add(result, faces(face).Reversed());
+  builder.Add(result, whole);
+  return text(result);
+}
+
+std::string taken_apart(const std::string& brep, double gap) {
+  const TopoDS_Shape whole = parse(brep);
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(whole, TopAbs_FACE, faces);
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (int i = 1; i <= faces.Extent(); ++i) {
+    gp_Trsf motion;
+    if (i == faces.Extent()) motion.SetTranslation({0, 0, gap});
+    builder.Add(result, BRepBuilderAPI_Transform(faces(i), motion, true).Shape());
+  }
+  return text(result);
+}
+
+void write_step(const std::string& brep, const std::string& path, const std::string& unit) {
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("write.step.unit", unit.c_str());
+  STEPControl_Writer writer;
+  writer.Transfer(parse(brep), STEPControl_AsIs);
+  writer.Write(path.c_str());
+  Interface_Static::SetCVal("write.step.unit", "MM");
+}
+
+void write_iges(const std::string& brep, const std::string& path, const std::string& unit, bool solid) {
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer(unit.c_str(), solid ? 1 : 0);
+  writer.AddShape(parse(brep));
+  writer.ComputeModel();
+  writer.Write(path.c_str());
 }
 
 std::string crossed_box(double size) {

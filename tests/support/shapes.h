@@ -43,6 +43,16 @@ std::string loosened(const std::string& brep, double tolerance);
 /// One compound of both.
 std::string compound(const std::string& a, const std::string& b);
 
+/// A compound of one of the solid's faces (FreeCAD's number) and then the solid itself, which shares it.
+std::string face_and_solid(const std::string& brep, int face);
+/// A compound of copies of the solid's faces, none of which shares an edge with another; the last one is moved by `gap` along +Z.
+std::string taken_apart(const std::string& brep, double gap = 0);
+
+/// Files; `unit` as OCCT names it: "MM", "INCH", "M". The shape's numbers are mm.
+void write_step(const std::string& brep, const std::string& path, const std::string& unit = "MM");
+/// `solid`: as a solid with topology (entity 186), else as trimmed surfaces.
+void write_iges(const std::string& brep, const std::string& path, const std::string& unit = "MM", bool solid = false);
+
 /// A cube whose cubic void sticks out of its side x = size: every face is sound, the shells cross.
 std::string crossed_box(double size);
 

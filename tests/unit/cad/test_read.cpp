@@ -193,7 +193,6 @@ TEST(Read, CompoundOfOneSolidIsThatSolid) {
   const std::string box = shapes::box(1, 1, 1);
   EXPECT_THAT(refusal_of_brep(shapes::compound(box, box)), HasSubstr("solids"));
   EXPECT_THAT(refusal_of_brep(shapes::compound(box, shapes::moved(box, 0, 5, 0, 0))), HasSubstr("2 solids"));
-  EXPECT_THAT(refusal_of_brep(shapes::compound(box, shapes::loose_face(1))), HasSubstr("loose"));
 }
 
 TEST(Read, RefusesWhatIsNoSolid) {

@@ -107,20 +107,17 @@ def _elements(obj):
 
 
 def check_solid(shape):
-    """Raises InvalidInput unless the shape is one valid closed solid with a volume. The engine checks again and more closely."""
+    """Raises InvalidInput unless the shape has one valid solid with a volume, or faces only, which the engine sews. It checks again and more closely."""
     if shape.isNull() or not shape.Faces:
         raise InvalidInput("the shape is empty")
-    solids = len(shape.Solids)
-    if solids == 0:
-        closed = "closed shell, not a solid" if all(shell.isClosed() for shell in shape.Shells) and shape.Shells else "open surface"
-        raise InvalidInput("the shape is an {}; a solid is needed".format(closed) if closed[0] == "o" else "the shape is a " + closed)
-    if solids > 1:
-        raise InvalidInput("the shape has {} solids; mesh one solid at a time".format(solids))
-    if len(shape.Solids[0].Faces) != len(shape.Faces):
-        raise InvalidInput("the shape has faces beside its solid")
-    if not shape.isValid():
+    if not shape.Solids:
+        return
+    if len(shape.Solids) > 1:
+        raise InvalidInput("the shape has {} solids; mesh one solid at a time".format(len(shape.Solids)))
+    (solid,) = shape.Solids
+    if not solid.isValid():
         raise InvalidInput("the solid is not valid; Part > Check geometry shows why")
-    if not shape.Volume > 1e-12 * shape.BoundBox.DiagonalLength**3:
+    if not solid.Volume > 1e-12 * solid.BoundBox.DiagonalLength**3:
         raise InvalidInput("the solid has no volume")
 
 

@@ -1,10 +1,19 @@
 """A Fem.FemMesh from the arrays, and the groups that FreeCAD's solvers look for."""
 
-from . import compat, engine, shapes
+import importlib.util
 
-#: Constraints that FreeCAD, 0.20 and 1.0, silently leaves out on hexahedra: its own search knows tetrahedra only.
+from . import compat, engine, load_sets, shapes
+
+#: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
-
+#: Constraints that FreeCAD has in its menus and, in some versions, no writer for: type and the writer's name
+_WRITERS = {
+    "Fem::ConstraintBearing": "bearing",
+    "Fem::ConstraintBodyHeatSource": "bodyheatsource",
+    "Fem::ConstraintGear": "gear",
+    "Fem::ConstraintPulley": "pulley",
+    "Fem::ConstraintSpring": "spring",
+}
 #: Constraints that load faces of the mesh.
 _FACE_LOADS = {"Fem::ConstraintForce": "force", "Fem::ConstraintPressure": "pressure"}
 
@@ -71,17 +80,21 @@ def add_group(mesh, name, kind, elements):
 def add_constraint_groups(mesh, result, part, analysis):
     """Adds the groups that FreeCAD's own search by geometry would not find by itself; returns warnings, one line each.
 
-    A group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So it is written only where the
-    search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Where there are several materials,
-    each gets `<Material>_Volumes`.
+    They are for a FreeCAD without our load_sets: a group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So
+    it is written only where the search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Where there are several
+    materials, each gets `<Material>_Volumes`.
     """
     warnings, node_groups, materials = [], [], []
+    whole = load_sets.install()
     lost = {name for kind in result.report["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for member in analysis.Group:
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
-        if kind in _TETRAHEDRA_ONLY or member.TypeId in _TETRAHEDRA_ONLY:
-            what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY[member.TypeId]
+        what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY.get(member.TypeId)
+        if what and not whole:
             warnings.append("{}: FreeCAD cannot apply {} to hexahedra".format(member.Label, what))
+        writer = _WRITERS.get(kind) or _WRITERS.get(member.TypeId)
+        if writer and not importlib.util.find_spec("femsolver.calculix.write_constraint_" + writer):
+            warnings.append("{}: this FreeCAD writes nothing for it into the input of CalculiX".format(member.Label))
         if kind in ("Fem::MaterialCommon", "Fem::Material"):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
@@ -92,7 +105,7 @@ def add_constraint_groups(mesh, result, part, analysis):
             if references and set(nodes) - _found(mesh, references):
                 node_groups.append((member.Name + "_Nodes", nodes))
             for kind, load in _FACE_LOADS.items():
-                if member.isDerivedFrom(kind):
+                if member.isDerivedFrom(kind) and not whole:
                     warnings += _lost_load(mesh, result, member, references, load)
     # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):

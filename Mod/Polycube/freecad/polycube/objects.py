@@ -4,7 +4,7 @@ import json
 
 import FreeCAD
 
-from . import compat, fem_mesh, option_table, shapes
+from . import compat, fem_mesh, load_sets, option_table, shapes
 from .compat import part_of, set_part
 from .errors import InvalidInput
 
@@ -72,14 +72,19 @@ def state(obj):
     """EMPTY, CURRENT or OUTDATED, from the object's properties and its shape as they are now."""
     if not obj.FemMesh.VolumeCount:
         return EMPTY
-    part = part_of(obj)
     try:
         same_options = obj.MeshedOptions == json.dumps(option_table.read(obj), sort_keys=True)
-        if part and same_options and shapes.same(list(obj.MeshedShape), shapes.signature(shapes.shape_of(part, obj))):
+        if same_options and shape_is_meshed(obj):
             return CURRENT
     except InvalidInput:  # of an option or of the shape
         pass
     return OUTDATED
+
+
+def shape_is_meshed(obj):
+    """Whether the mesh is one of its part as this is now. Raises InvalidInput where the part has no shape."""
+    part = part_of(obj)
+    return bool(part) and shapes.same(list(obj.MeshedShape), shapes.signature(shapes.shape_of(part, obj)))
 
 
 class Stateless:
@@ -104,6 +109,7 @@ class PolycubeMesh(Stateless):
     def __init__(self, obj):
         obj.Proxy = self
         self._add_properties(obj)
+        load_sets.install()
 
     def _add_properties(self, obj):
         if compat.needs_part_property(obj):
@@ -129,6 +135,7 @@ class PolycubeMesh(Stateless):
             self.execute(obj)
 
     def onDocumentRestored(self, obj):
+        load_sets.install()
         try:
             self._add_properties(obj)
         except ImportError as error:

@@ -1,0 +1,241 @@
+"""FreeCAD's solver writers take the nodes and mesh faces of a constraint from the groups of a Polycube mesh.
+
+FreeCAD searches for them in space, within 1e-7 mm. That misses mid-edge nodes which could not be on the CAD, finds no sides of hexahedra for heat flux and
+section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. The groups know all of it, whenever the
+constraint was made. `install` puts them before the search, for our meshes only.
+"""
+
+import functools
+
+import FreeCAD
+
+from . import shapes
+
+#: corners of the sides of a hexahedron in SMESH's order, by their numbers in the files for CalculiX that FreeCAD writes
+_SIDES = {1: (4, 5, 6, 7), 2: (0, 1, 2, 3), 3: (1, 2, 5, 6), 4: (2, 3, 6, 7), 5: (0, 3, 4, 7), 6: (0, 1, 4, 5)}
+#: abscissas and weights of three Gauss points
+_GAUSS = ((-(0.6**0.5), 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9))
+
+
+def install():
+    """True if FreeCAD's writers ask our groups, from now on or before; False where this FreeCAD has other writers than those known here."""
+    try:
+        from femmesh.meshsetsgetter import MeshSetsGetter
+    except ImportError:
+        return False
+    names = ("__init__", "get_constraints_force_nodeloads", "get_constraints_pressure_faces")
+    if not all(hasattr(MeshSetsGetter, name) for name in names):
+        return False
+    for name, wrapper in zip(names, (_with_groups, _whole_forces, _whole_pressures)):
+        original = getattr(MeshSetsGetter, name)
+        if not hasattr(original, "__wrapped__"):
+            setattr(MeshSetsGetter, name, wrapper(original))
+    return True
+
+
+class GroupedMesh:
+    """A Fem.FemMesh that answers searches by shape from its groups, and where it has none by the search."""
+
+    def __init__(self, owner, shape):
+        self.owner = owner
+        self._mesh = mesh = owner.FemMesh
+        self._shapes = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes, "Solid": shape.Solids}
+        self._elements = {}
+        for group in mesh.Groups:
+            self._elements[mesh.getGroupName(group), mesh.getGroupElementType(group)] = group
+        self._sides = None
+
+    def __getattr__(self, name):
+        return getattr(self._mesh, name)
+
+    @property
+    def Groups(self):
+        """Without those of nodes: FreeCAD takes a constraint's `<Name>_Nodes` even where the constraint has changed since."""
+        return [group for group in self._mesh.Groups if self._mesh.getGroupElementType(group) != "Node"]
+
+    @property
+    def GroupCount(self):
+        return len(self.Groups)
+
+    def elements(self, shape, kind):
+        """Numbers of the mesh's elements (of a vertex: nodes) on a face, edge, vertex or solid of the part; empty where the mesh has no group for it."""
+        name = shape.ShapeType
+        numbered = list(enumerate(self._shapes.get(name, ()), 1))
+        same = [number for number, own in numbered if own.isSame(shape)] or [number for number, own in numbered if own.isPartner(shape)]
+        group = self._elements.get((name + str(same[0]), kind)) if same else None
+        return () if group is None else self._mesh.getGroupElements(group)
+
+    def _nodes(self, shape, kind, search):
+        elements = self.elements(shape, kind)
+        return sorted({node for element in elements for node in self._mesh.getElementNodes(element)}) if elements else search(shape)
+
+    def getNodesByFace(self, shape):
+        return self._nodes(shape, "Face", self._mesh.getNodesByFace)
+
+    def getNodesByEdge(self, shape):
+        return self._nodes(shape, "Edge", self._mesh.getNodesByEdge)
+
+    def getNodesBySolid(self, shape):
+        return self._nodes(shape, "Volume", self._mesh.getNodesBySolid)
+
+    def getNodesByVertex(self, shape):
+        return list(self.elements(shape, "Node")) or self._mesh.getNodesByVertex(shape)
+
+    def getFacesByFace(self, shape):
+        return list(self.elements(shape, "Face")) or self._mesh.getFacesByFace(shape)
+
+    def getEdgesByEdge(self, shape):
+        return list(self.elements(shape, "Edge")) or self._mesh.getEdgesByEdge(shape)
+
+    def getccxVolumesByFace(self, shape):
+        """(volume, number of its side) of every mesh face on a face of the part."""
+        elements = self.elements(shape, "Face")
+        if not elements:
+            return self._mesh.getccxVolumesByFace(shape)
+        if self._sides is None:
+            corners = {frozenset(self._mesh.getElementNodes(face)[:4]): face for face in self._mesh.Faces}
+            self._sides = {}
+            for volume in self._mesh.Volumes:
+                nodes = self._mesh.getElementNodes(volume)
+                for number, side in _SIDES.items():
+                    face = corners.get(frozenset(nodes[i] for i in side))
+                    if face is not None:
+                        self._sides[face] = (volume, number)
+        return [self._sides[face] for face in elements if face in self._sides]
+
+    def weights(self, elements):
+        """{node: integral of its shape function} over mesh faces or edges: the share of an even load that it takes, in mm2 or mm."""
+        import numpy
+
+        rows = numpy.array([self._mesh.getElementNodes(element) for element in elements])
+        points = self._mesh.Nodes
+        places = numpy.array([[points[node][:] for node in row] for row in rows.tolist()])
+        found = numpy.zeros(rows.shape)
+        for value, slopes, weight in _QUADRATURE[rows.shape[1]]:
+            along = [numpy.einsum("n,mnd->md", slope, places) for slope in slopes]
+            size = numpy.linalg.norm(numpy.cross(*along) if len(along) == 2 else along[0], axis=1)
+            found += weight * size[:, None] * value
+        total = {}
+        for node, weight in zip(rows.ravel().tolist(), found.ravel().tolist()):
+            total[node] = total.get(node, 0.0) + weight
+        return total
+
+
+class _StandIn:
+    """A document object with other values for some of its properties."""
+
+    def __init__(self, obj, **values):
+        self._obj = obj
+        self.__dict__.update(values)
+
+    def __getattr__(self, name):
+        return getattr(self._obj, name)
+
+
+def _with_groups(original):
+    @functools.wraps(original)
+    def __init__(self, *arguments, **named):
+        from . import objects
+
+        original(self, *arguments, **named)
+        obj = getattr(self, "mesh_object", None)
+        if not objects.is_polycube(obj):
+            return
+        part = objects.part_of(obj)
+        if part is None or not objects.shape_is_meshed(obj):
+            FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
+            return
+        self.femmesh = GroupedMesh(obj, shapes.solid_object(part).Shape)
+        self.mesh_object = _StandIn(obj, FemMesh=self.femmesh)
+
+    return __init__
+
+
+def _whole_forces(original):
+    """Even loads on faces and edges by the shape functions, scaled to the force: its whole arrives, however coarse the mesh."""
+    return _replaced(original, "cons_force", _fill_force)
+
+
+def _whole_pressures(original):
+    return _replaced(original, "cons_pressure", _fill_pressure)
+
+
+def _replaced(original, members, fill):
+    """Has `fill` do the members that it can do by our groups, and the original the others."""
+
+    @functools.wraps(original)
+    def get(self):
+        everyone = getattr(self.member, members)
+        ours = isinstance(self.femmesh, GroupedMesh)
+        setattr(self.member, members, [member for member in everyone if not (ours and fill(self.femmesh, member))])
+        try:
+            original(self)
+        finally:
+            setattr(self.member, members, everyone)
+
+    return get
+
+
+def _references(constraint):
+    return [(obj, name, obj.Shape.getElement(name)) for obj, names in constraint.References for name in names]
+
+
+def _fill_force(mesh, member):
+    force = member["Object"]
+    found = []
+    for obj, name, shape in _references(force):
+        elements = mesh.elements(shape, shape.ShapeType) if shape.ShapeType in ("Face", "Edge") else ()
+        if not elements:
+            return False
+        size = shape.Area if shape.ShapeType == "Face" else shape.Length
+        found.append(("node loads on shape: {}:{}".format(obj.Name, name), size, mesh.weights(elements)))
+    whole = sum(size for _, size, _ in found)
+    member["NodeLoadTable"] = []
+    for title, size, weights in found:
+        factor = force.Force * size / whole / sum(weights.values())
+        member["NodeLoadTable"].append((title, {node: weight * factor for node, weight in weights.items()}))
+    # FreeCAD takes the direction of a force inside the container of what it is the direction of; the mesh may stand elsewhere.
+    source = force.Direction[0] if force.Direction else force.References[0][0]
+    turn = shapes.standing(mesh.owner).inverse().multiply(shapes.standing(source)).Rotation
+    if turn.Angle:
+        member["Object"] = _StandIn(force, DirectionVector=turn.multVec(force.DirectionVector))
+    return True
+
+
+def _fill_pressure(mesh, member):
+    faces = []
+    for _, _, shape in _references(member["Object"]):
+        if shape.ShapeType != "Face" or not mesh.elements(shape, "Face"):
+            return False
+        faces += mesh.getccxVolumesByFace(shape)
+    member["PressureFaces"] = [("{}: face load".format(member["Object"].Name), faces)]
+    return True
+
+
+def _line_rule(count):
+    for at, weight in _GAUSS:
+        if count == 2:
+            yield ((1 - at) / 2, (1 + at) / 2), ((-0.5, 0.5),), weight
+        else:
+            yield (at * (at - 1) / 2, at * (at + 1) / 2, 1 - at * at), ((at - 0.5, at + 0.5, -2 * at),), weight
+
+
+def _quad_rule(count):
+    corners, middles = ((-1, -1), (1, -1), (1, 1), (-1, 1)), ((0, -1), (1, 0), (0, 1), (-1, 0))
+    for r, weight_r in _GAUSS:
+        for s, weight_s in _GAUSS:
+            if count == 4:
+                value = [(1 + a * r) * (1 + b * s) / 4 for a, b in corners]
+                by_r, by_s = [a * (1 + b * s) / 4 for a, b in corners], [b * (1 + a * r) / 4 for a, b in corners]
+            else:
+                value = [(1 + a * r) * (1 + b * s) * (a * r + b * s - 1) / 4 for a, b in corners]
+                value += [(1 - r * r) * (1 + b * s) / 2 if a == 0 else (1 + a * r) * (1 - s * s) / 2 for a, b in middles]
+                by_r = [a * (1 + b * s) * (2 * a * r + b * s) / 4 for a, b in corners]
+                by_r += [-r * (1 + b * s) if a == 0 else a * (1 - s * s) / 2 for a, b in middles]
+                by_s = [b * (1 + a * r) * (2 * b * s + a * r) / 4 for a, b in corners]
+                by_s += [b * (1 - r * r) / 2 if a == 0 else -s * (1 + a * r) for a, b in middles]
+            yield value, (by_r, by_s), weight_r * weight_s
+
+
+#: per number of nodes: (shape functions, their slopes along each direction, weight) at Gauss points
+_QUADRATURE = {2: list(_line_rule(2)), 3: list(_line_rule(3)), 4: list(_quad_rule(4)), 8: list(_quad_rule(8))}

@@ -1,0 +1,293 @@
+"""Loads and heat of FreeCAD's objects arrive whole in the solver's input, made before or after the mesh, on straight and curved faces."""
+
+import json
+import math
+import os
+import re
+from unittest import mock
+
+import FreeCAD
+import ObjectsFem
+import Part
+import TestPolycubeSolver as solver_tests
+from FreeCAD import Vector
+from femmesh import meshtools
+from femtools import ccxtools
+
+from freecad import polycube
+from freecad.polycube import load_sets, objects
+
+calculix = solver_tests.calculix
+
+
+def written(analysis, solver, folder):
+    """Path of the input file that FreeCAD writes."""
+    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
+    fea.update_objects()
+    fea.setup_working_dir(folder)
+    fea.write_inp_file()
+    return fea.inp_file_name
+
+
+class LoadTest(solver_tests.SolverTest):
+    def part(self, shape):
+        self.document = FreeCAD.newDocument()
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = shape
+        return part
+
+    def tube(self, outer=10.0, inner=9.3, height=10.0, size=9):
+        """Walls so thin for the cells that arcs on the CAD need inner edges to give way: (part, name of the outer side, of the inner, ends)"""
+        part = self.part(Part.makeCylinder(outer, height).cut(Part.makeCylinder(inner, height)))
+        names = {}
+        for number, face in enumerate(part.Shape.Faces, 1):
+            key = face.Surface.Radius if face.Surface.TypeId == "Part::GeomCylinder" else face.CenterOfMass.z
+            names[round(key, 6)] = "Face{}".format(number)
+        return part, names[outer], names[inner], (names[0.0], names[height])
+
+    def add(self, analysis, kind, part, *names, **values):
+        obj = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(self.document, kind))[0]
+        obj.References = [(part, name) for name in names]
+        for name, value in values.items():
+            setattr(obj, name, value)
+        return obj
+
+    def group(self, mesh, name):
+        return next(mesh.getGroupElements(group) for group in mesh.Groups if mesh.getGroupName(group) == name)
+
+
+class MechanicalLoads(LoadTest):
+    def check_totals(self, when, order):
+        part, outer, inner, ends = self.tube()
+        analysis, solver = calculix.make_analysis(part, [ends[0]])
+
+        def load():
+            self.add(analysis, "Force", part, outer, Force=1000, Direction=(part, [ends[1]]))
+            self.add(analysis, "Pressure", part, inner, Pressure=5.0)
+
+        if when == "before":
+            load()
+        obj = polycube.create_fem_mesh(part, size=9, order=order, analysis=analysis)
+        self.assertEqual(json.loads(obj.Report)["quality"]["straightened_edges"], 0)
+        if when == "after":
+            load()
+        self.document.recompute()
+        path = written(analysis, solver, self.folder)
+        self.assertAlmostEqual(solver_tests.nodal_loads(path).Length, 1000, delta=0.01)
+        self.assertEqual(len(set(solver_tests.pressure_faces(path))), len(self.group(obj.FemMesh, inner)))
+
+    def test_loads_made_before_the_mesh(self):
+        for order in (1, 2):
+            with self.subTest(order=order):
+                self.check_totals("before", order)
+
+    def test_loads_made_after_the_mesh(self):
+        for order in (1, 2):
+            with self.subTest(order=order):
+                self.check_totals("after", order)
+
+    def test_freecads_own_search_finds_all_nodes_and_mesh_faces(self):
+        """Mid-edge nodes are on the CAD: nothing is lost where our groups are not asked."""
+        part, outer, inner, _ = self.tube()
+        mesh = polycube.create_fem_mesh(part, size=9).FemMesh
+        for name in (outer, inner):
+            face = part.Shape.getElement(name)
+            self.assertEqual(set(mesh.getFacesByFace(face)), set(self.group(mesh, name)))
+            self.assertEqual(set(mesh.getNodesByFace(face)), {node for quad in self.group(mesh, name) for node in mesh.getElementNodes(quad)})
+
+    def test_nodes_off_the_cad_lose_no_load(self):
+        """Loads, supports and pressures on a face whose nodes FreeCAD's search does not find, made after the mesh, and moved to it."""
+        part = self.part(Part.makeBox(10, 10, 10))
+        analysis, solver = calculix.make_analysis(part, ["Face1"])
+        result = polycube.mesh(part, size=5)
+        result.nodes[result.groups["Face1"]["nodes"]] += (1e-6, 0, 0)
+        result.nodes[result.groups["Face2"]["nodes"]] += (1e-6, 0, 0)
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        self.assertFalse([line for line in objects.set_mesh(obj, result, {"size": 5}) if "lost" in line])
+        self.assertFalse(obj.FemMesh.getFacesByFace(part.Shape.getElement("Face2")))
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        pressure = self.add(analysis, "Pressure", part, "Face3", Pressure=2.0)
+        pressure.References = [(part, "Face2")]
+        # A group of this name is older than the support's present face.
+        support = next(member for member in analysis.Group if member.isDerivedFrom("Fem::ConstraintFixed"))
+        self.assertIn("Support_Nodes", [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups])
+        path = written(analysis, solver, self.folder)
+        self.assertLess((solver_tests.nodal_loads(path) - Vector(1000, 0, 0)).Length, 1e-6)
+        self.assertEqual(len(solver_tests.pressure_faces(path)), len(result.groups["Face2"]["quads"]))
+        self.assertEqual(self.fixed(path, support), set((result.groups["Face1"]["nodes"] + 1).tolist()))
+        support.References = [(part, "Face5")]
+        self.assertEqual(self.fixed(written(analysis, solver, self.folder), support), set((result.groups["Face5"]["nodes"] + 1).tolist()))
+
+    def fixed(self, path, support):
+        with open(path, encoding="utf-8") as file:
+            text = file.read()
+        block = re.search(r"\*NSET,NSET={}\n((?:\d+,\n)+)".format(support.Name), text).group(1)
+        return {int(number) for number in re.findall(r"\d+", block)}
+
+    def test_force_on_edges_and_several_faces(self):
+        part, outer, inner, ends = self.tube()
+        rim = next(n for n, edge in enumerate(part.Shape.Edges, 1) if edge.Closed and edge.Curve.Radius == 10 and edge.CenterOfMass.z > 9)
+        for names in ([outer, inner], ["Edge{}".format(rim)]):
+            with self.subTest(names):
+                analysis, solver = calculix.make_analysis(part, [ends[0]])
+                polycube.create_fem_mesh(part, size=9, analysis=analysis)
+                self.add(analysis, "Force", part, *names, Force=1000, Direction=(part, [ends[1]]))
+                self.document.recompute()
+                path = written(analysis, solver, self.folder)
+                self.assertAlmostEqual(solver_tests.nodal_loads(path).Length, 1000, delta=0.01)
+                for member in [*analysis.Group, analysis]:
+                    self.document.removeObject(member.Name)
+
+    def test_a_document_that_is_opened_again(self):
+        part, outer, _, ends = self.tube()
+        analysis, solver = calculix.make_analysis(part, [ends[0]])
+        polycube.create_fem_mesh(part, size=9, analysis=analysis)
+        self.add(analysis, "Force", part, outer, Force=1000, Direction=(part, [ends[1]]))
+        self.document.recompute()
+        path = os.path.join(self.folder, "part.FCStd")
+        self.document.saveAs(path)
+        FreeCAD.closeDocument(self.document.Name)
+        self.document = FreeCAD.openDocument(path)
+        again = written(self.document.Analysis, self.document.Solver, self.folder)
+        self.assertAlmostEqual(solver_tests.nodal_loads(again).Length, 1000, delta=0.01)
+
+    def test_a_part_that_has_changed_is_searched(self):
+        """Its faces may have other numbers than when it was meshed."""
+        part = self.part(Part.makeBox(10, 10, 10))
+        analysis, solver = calculix.make_analysis(part, ["Face1"])
+        polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        self.add(analysis, "Pressure", part, "Face2", Pressure=2.0)
+        part.Shape = Part.makeBox(12, 10, 10)
+        self.document.recompute()
+        with mock.patch.object(load_sets.FreeCAD.Console, "PrintWarning", create=True) as warn:
+            path = written(analysis, solver, self.folder)
+        self.assertTrue(any("has changed" in call.args[0] for call in warn.call_args_list))
+        self.assertEqual(solver_tests.pressure_faces(path), [])
+
+    def test_a_part_in_a_turned_container(self):
+        """FreeCAD 0.20 looks for its faces, and takes the direction of a force, inside the container; the mesh stands where the part is."""
+        self.document = FreeCAD.newDocument()
+        container = self.document.addObject("App::Part", "Container")
+        box = self.document.addObject("Part::Box", "Box")
+        container.addObject(box)
+        container.Placement = FreeCAD.Placement(Vector(5, -3, 2), FreeCAD.Rotation(Vector(1, 2, 3), 50))
+        self.document.recompute()
+        for part in (box, container):
+            with self.subTest(part.Name):
+                analysis, solver = calculix.make_analysis(box, ["Face1"])
+                obj = polycube.create_fem_mesh(part, size=5, analysis=analysis)
+                self.add(analysis, "Force", box, "Face2", Force=1000, Direction=(box, ["Face2"]))
+                self.add(analysis, "Pressure", box, "Face3", Pressure=2.0)
+                self.document.recompute()
+                path = written(analysis, solver, self.folder)
+                along = container.Placement.Rotation.multVec(Vector(1, 0, 0))
+                self.assertLess((solver_tests.nodal_loads(path) - along * 1000).Length, 0.01)
+                self.assertEqual(len(solver_tests.pressure_faces(path)), len(self.group(obj.FemMesh, "Face3")))
+                for member in [*analysis.Group, analysis]:
+                    self.document.removeObject(member.Name)
+
+    def test_other_meshes_are_left_to_freecad(self):
+        from femexamples import ccx_cantilever_faceload
+
+        self.document = ccx_cantilever_faceload.setup()
+        load_sets.install()
+        with mock.patch.object(load_sets.GroupedMesh, "__init__", side_effect=AssertionError):
+            path = written(self.document.Analysis, self.document.CalculiXccxTools, self.folder)
+        self.assertLess((solver_tests.nodal_loads(path) - Vector(0, 0, -9e6)).Length, 1e-3 * 9e6)
+
+
+class Sides(LoadTest):
+    def test_numbers_of_sides_are_those_that_freecad_finds(self):
+        part = self.part(Part.makeBox(10, 8, 6))
+        for order in (1, 2):
+            obj = polycube.create_fem_mesh(part, size=2, order=order)
+            mesh, grouped = obj.FemMesh, load_sets.GroupedMesh(obj, part.Shape)
+            table = meshtools.get_femelement_table(mesh)
+            beside = meshtools.get_femnodes_ele_table(mesh.Nodes, table)
+            for number, face in enumerate(part.Shape.Faces, 1):
+                nodes = sorted(grouped.getNodesByFace(face))
+                found = meshtools.get_ccxelement_faces_from_binary_search(meshtools.get_bit_pattern_dict(table, beside, nodes))
+                self.assertEqual(sorted(map(tuple, found)), sorted(grouped.getccxVolumesByFace(face)), number)
+
+    def test_weights_sum_to_the_area(self):
+        part, outer, _, _ = self.tube(inner=5.0)
+        grouped = load_sets.GroupedMesh(polycube.create_fem_mesh(part, size=2), part.Shape)
+        face = part.Shape.getElement(outer)
+        weights = grouped.weights(grouped.elements(face, "Face"))
+        self.assertAlmostEqual(sum(weights.values()) / face.Area, 1, delta=1e-3)
+        self.assertEqual(set(weights), set(grouped.getNodesByFace(face)))
+
+
+class Heat(LoadTest):
+    """A tube held at 300 K outside; heat comes in at the bore, as a flux and from a fluid. Closed forms of the wall's temperature there."""
+
+    OUTER, INNER, HEIGHT, CONDUCTIVITY, FILM, FLUX = 20.0, 10.0, 10.0, 50.0, 2000.0, 50000.0
+
+    def temperature(self, **heat):
+        part, outer, inner, ends = self.tube(self.OUTER, self.INNER, self.HEIGHT)
+        analysis, solver = calculix.make_analysis(part, [ends[0]])
+        solver.AnalysisType = "thermomech"
+        solver.ThermoMechSteadyState = True
+        steel = next(member for member in analysis.Group if member.TypeId == "App::MaterialObjectPython")
+        steel.Material = dict(
+            steel.Material, ThermalConductivity="50 W/m/K", ThermalExpansionCoefficient="0 m/m/K", SpecificHeat="500 J/kg/K"
+        )
+        analysis.addObject(ObjectsFem.makeConstraintInitialTemperature(self.document, "Start"))[0].initialTemperature = 300
+        self.add(analysis, "Temperature", part, outer, Temperature=300)
+        obj = polycube.create_fem_mesh(part, size=3, analysis=analysis)
+        self.add(analysis, "Heatflux", part, inner, **heat)
+        self.document.recompute()
+        _, result = calculix.solve(analysis, solver, self.folder)
+        mesh = obj.FemMesh
+        nodes = {node for quad in self.group(mesh, inner) for node in mesh.getElementNodes(quad)}
+        values = [value for node, value in zip(result.NodeNumbers, result.Temperature) if node in nodes]
+        return sum(values) / len(values)
+
+    def test_flux(self):
+        found = self.temperature(ConstraintType="DFlux", DFlux=self.FLUX)
+        expected = self.FLUX * self.INNER / 1000 * math.log(self.OUTER / self.INNER) / self.CONDUCTIVITY
+        self.assertAlmostEqual((found - 300) / expected, 1, delta=1e-3)
+
+    def test_film(self):
+        found = self.temperature(ConstraintType="Convection", AmbientTemp=400, FilmCoef=self.FILM)
+        at_wall, through = 1 / (self.FILM * self.INNER / 1000), math.log(self.OUTER / self.INNER) / self.CONDUCTIVITY
+        self.assertAlmostEqual((found - 300) / (100 * through / (at_wall + through)), 1, delta=1e-3)
+
+
+class SectionPrint(LoadTest):
+    def test_force_through_a_face(self):
+        part = self.part(Part.makeBox(40, 10, 10))
+        analysis, solver = calculix.make_analysis(part, ["Face1"])
+        polycube.create_fem_mesh(part, size=2.5, analysis=analysis)
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        self.add(analysis, "SectionPrint", part, "Face2")
+        self.document.recompute()
+        path, _ = calculix.solve(analysis, solver, self.folder)
+        with open(os.path.splitext(path)[0] + ".dat", encoding="utf-8") as file:
+            text = file.read()
+        section = text[text.index("statistics for surface set") :]
+        force = [float(number) for number in re.findall(r"-?\d\.\d+E[+-]\d+", section[section.index("\n") :])[:3]]
+        self.assertAlmostEqual(abs(force[0]), 1000, delta=5)
+
+
+class Warnings(LoadTest):
+    def test_constraints_that_this_freecad_does_not_write(self):
+        part, _, inner, ends = self.tube(inner=5.0)
+        analysis, _ = calculix.make_analysis(part, [ends[0]])
+        self.add(analysis, "Bearing", part, inner)
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        warnings = objects.set_mesh(obj, polycube.mesh(part, size=9), {"size": 9})
+        self.assertIn("Bearing: this FreeCAD writes nothing for it into the input of CalculiX", warnings)
+
+    def test_without_our_groups_what_freecad_loses_is_told(self):
+        part = self.part(Part.makeBox(10, 10, 10))
+        analysis, _ = calculix.make_analysis(part, ["Face1"])
+        self.add(analysis, "Heatflux", part, "Face2")
+        obj = objects.make(self.document, part)
+        analysis.addObject(obj)
+        result = polycube.mesh(part, size=5)
+        self.assertEqual(objects.set_mesh(obj, result, {"size": 5}), [])
+        with mock.patch.object(load_sets, "install", return_value=False):
+            self.assertTrue(any("heat flux" in line for line in objects.set_mesh(obj, result, {"size": 5})))

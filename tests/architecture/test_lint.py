@@ -1,0 +1,38 @@
+"""Linters over all scripts: a finding is a failure."""
+
+import os
+import shutil
+import subprocess
+import unittest
+
+from test_architecture import REPO, tracked
+
+#: pycodestyle's own defaults, which leave breaks at operators to the author, spaces in slices, the length of lines, and the names of the field (`l`).
+IGNORED = "E121,E123,E126,E203,E226,E24,E402,E501,E704,E741,W503,W504"
+
+
+def scripts():
+    """Shell scripts have no suffix here."""
+    for name in tracked():
+        with open(os.path.join(REPO, name), "rb") as file:
+            if file.readline().startswith(b"#!/bin/sh"):
+                yield name
+
+
+class Lint(unittest.TestCase):
+    def run_on(self, names, tool, *arguments):
+        self.assertTrue(names)
+        if not shutil.which(tool):
+            self.skipTest(tool + " is not there")
+        run = subprocess.run([tool, *arguments, *names], cwd=REPO, capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def test_shell(self):
+        self.run_on(list(scripts()), "shellcheck")
+
+    def test_python(self):
+        self.run_on([name for name in tracked() if name.endswith(".py")], "pycodestyle", "--ignore=" + IGNORED)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 import numpy as np
-from support import VECTOR, FolderTest, Part, box
+from support import VECTOR, FolderTest, Part, box, ccx, needs_calculix
 
 import _polycube
 
@@ -53,6 +53,7 @@ def renumbered(text, first, suffix):
     return "\n".join(lines) + "\n"
 
 
+@needs_calculix
 class Decks(FolderTest):
     def mesh(self, shape, element_type, size, name="mesh.inp"):
         mesh = _polycube.mesh(brep=shape.exportBrepToString(), size=size, element_type=element_type)
@@ -63,7 +64,7 @@ class Decks(FolderTest):
         """Runs the deck; returns what CalculiX printed into the .dat file."""
         with open(self.path("job.inp"), "w") as file:
             file.write(text)
-        run = subprocess.run(["ccx", "job"], cwd=self.folder, capture_output=True, text=True, timeout=300)
+        run = subprocess.run([ccx.find(), "job"], cwd=self.folder, capture_output=True, text=True, timeout=300)
         self.assertNotIn("*ERROR", run.stdout)
         self.assertIn("Job finished", run.stdout)
         with open(self.path("job.dat")) as file:

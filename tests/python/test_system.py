@@ -53,6 +53,13 @@ class Solver(FolderTest):
         there = self.program("ccx")
         self.assertEqual(self.find(POLYCUBE_CCX="", PATH=self.folder), there)
 
+    def test_is_found_by_every_test_that_runs_it(self):
+        for folder, _, names in os.walk(os.path.join(REPO, "tests")):
+            for name in names:
+                if name.endswith(".py"):
+                    with open(os.path.join(folder, name), encoding="utf-8") as file:
+                        self.assertNotRegex(file.read(), r"""\[["']ccx["'],""", name)
+
     def test_demo_without_solver(self):
         """It meshes and draws, says how to name a solver, and ends well."""
         programs = self.path("bin")

@@ -1,0 +1,30 @@
+"""What Snakemake's log becomes on the terminal: a line for every part. Snakemake imports this file by itself (--log-handler-script) and calls log_handler."""
+
+import json
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from table import line, read_row  # noqa: E402
+
+_jobs = {}  # number -> (rule, key)
+_share = 0.0  # of the jobs of this run that are done
+
+
+def _last_rule():
+    """The one after which a part's line is known."""
+    with open("settings.json", encoding="utf-8") as file:
+        return "judge" if json.load(file)["judge"] else "mesh"
+
+
+def log_handler(message):
+    global _share
+    level = message["level"]
+    if level == "job_info":
+        _jobs[message["jobid"]] = (message["name"], dict(message["wildcards"]).get("key"))
+    elif level == "progress":
+        _share = message["done"] / max(message["total"], 1)
+    elif level == "job_finished":
+        rule, key = _jobs.get(message["jobid"], (None, None))
+        if rule == _last_rule():
+            print("{:3.0f} %  {}".format(100 * _share, line(read_row(".", key))), flush=True)

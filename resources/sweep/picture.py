@@ -1,0 +1,162 @@
+"""Picture of a mesh on its part, or of a part without a mesh: picture.py PART RESULT.json MESH.vtu PICTURE.png.
+
+Two views from opposite corners. The mesh's boundary is coloured by the quality of its cells, from white to red below BAD; cells inside that are bad are
+dots, drawn over everything. CAD edges are black, those without mesh edges red. Where there is no mesh the CAD itself is drawn, with the faces and edges that the reason
+names in red.
+"""
+
+import json
+import re
+import sys
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
+from matplotlib.collections import PolyCollection  # noqa: E402
+
+sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
+import FreeCAD  # noqa: E402, F401  (Part needs it)
+import Part  # noqa: E402
+
+BAD = 0.2                                         # scaled Jacobian below which a cell is marked: what solvers ask for at least, mostly
+EYES = np.array([[1.0, -1.3, 0.9], [-1.0, 1.3, -0.9]])
+PAPER, STEEL, RED, INK = (1, 1, 1), (0.72, 0.8, 0.88), (0.86, 0.08, 0.12), (0.08, 0.08, 0.08)
+# VTK's numbering of a hexahedron: its faces, and at every corner the three neighbours in a right-handed order.
+FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
+CORNERS = np.array([[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]])
+
+
+def scaled_jacobians(points, cells):
+    least = np.full(len(cells), np.inf)
+    for corner, ends in enumerate(CORNERS):
+        edges = points[cells[:, ends]] - points[cells[:, [corner]]]
+        lengths = np.linalg.norm(edges, axis=2).prod(axis=1)
+        least = np.minimum(least, np.linalg.det(edges) / np.maximum(lengths, 1e-300))
+    return least
+
+
+def read_hexes(path):
+    import meshio
+
+    mesh = meshio.read(path)
+    blocks = [block.data[:, :8] for block in mesh.cells if block.type.startswith("hexahedron")]
+    return np.asarray(mesh.points), np.vstack(blocks)
+
+
+def boundary(cells):
+    """Quads that belong to one cell, and the cell of each."""
+    quads = cells[:, FACES].reshape(-1, 4)
+    _, first, count = np.unique(np.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
+    alone = np.sort(first[count == 1])
+    return quads[alone], alone // 6
+
+
+def quality_colours(values):
+    """White at BAD and above, red at 0 and below."""
+    share = np.clip(values / BAD, 0, 1)[:, None]
+    colours = share * np.array([1, 0.75, 0.3]) + (1 - share) * np.array(RED)
+    colours[values >= BAD] = STEEL
+    return colours
+
+
+class Scene:
+    """Facets and lines with their colours, drawn from back to front."""
+
+    def __init__(self, diagonal, outlines):
+        self.facets, self.facet_colours, self.lines, self.line_colours, self.dots = [], [], [], [], []
+        self.outlines = outlines  # of the facets
+        self.diagonal = diagonal
+        # Lines lie on facets, so they are drawn as if they were nearer, by some widths of a facet; the CAD's facets are long.
+        self.slack = (0.01 if outlines else 0.04) * diagonal
+
+    def draw(self, axes, eye):
+        towards = eye / np.linalg.norm(eye)
+        right = np.cross([0, 0, 1], towards)
+        right /= np.linalg.norm(right)
+        frame = np.array([right, np.cross(towards, right), towards])
+        shapes, depths, fills, strokes, widths = [], [], [], [], []
+        for points, colour in zip(self.facets, self.facet_colours):
+            seen = points @ frame.T
+            normal = sum(np.cross(seen[k] - seen[0], seen[k + 1] - seen[0]) for k in range(1, len(seen) - 1))
+            size = np.linalg.norm(normal)
+            if size == 0 or normal[2] < -0.02 * size:
+                continue
+            fill = np.array(colour) * (0.6 + 0.4 * max(normal[2], 0) / size)
+            shapes.append(seen[:, :2])
+            depths.append(seen[:, 2].mean())
+            fills.append(fill)
+            strokes.append(0.45 * fill if self.outlines else fill)
+            widths.append(0.35)
+        for points, colour in zip(self.lines, self.line_colours):
+            seen = points @ frame.T
+            shapes.append(seen[:, :2])
+            # Red ones before everything: where a mesh leaves its CAD edges they may lie inside it.
+            depths.append(seen[:, 2].mean() + (self.slack if colour == INK else self.diagonal))
+            fills.append(colour)
+            strokes.append(colour)
+            widths.append(0.8 if colour == INK else 1.6)
+        order = np.argsort(depths, kind="stable")
+        axes.add_collection(PolyCollection([shapes[k] for k in order], facecolors=[fills[k] for k in order], edgecolors=[strokes[k] for k in order],
+                                           linewidths=[widths[k] for k in order], closed=False))
+        if self.dots:
+            seen = np.array(self.dots) @ frame.T
+            axes.plot(seen[:, 0], seen[:, 1], "o", color=RED, markeredgecolor="white", markersize=4, markeredgewidth=0.6)
+        axes.autoscale_view()
+        axes.set_aspect("equal")
+        axes.axis("off")
+
+
+def add_edges(scene, shape, lost, diagonal):
+    for number, edge in enumerate(shape.Edges, 1):
+        if edge.Degenerated:
+            continue
+        points = np.array([tuple(p) for p in edge.discretize(max(2, min(200, int(120 * edge.Length / diagonal) + 2)))])
+        colour = RED if number in lost else INK
+        scene.lines += [points[k:k + 2] for k in range(len(points) - 1)]
+        scene.line_colours += [colour] * (len(points) - 1)
+
+
+def mesh_scene(shape, mesh, row):
+    scene = Scene(shape.BoundBox.DiagonalLength, outlines=True)
+    points, cells = read_hexes(mesh)
+    quality = scaled_jacobians(points, cells)
+    quads, owner = boundary(cells)
+    scene.facets, scene.facet_colours = list(points[quads]), list(quality_colours(quality[owner]))
+    inner = np.setdiff1d(np.flatnonzero(quality < BAD), owner)
+    scene.dots = list(points[cells[inner]].mean(axis=1))
+    add_edges(scene, shape, set(row["report"]["cad"]["edges"]["lost"]), shape.BoundBox.DiagonalLength)
+    return scene
+
+
+def cad_scene(shape, row):
+    diagonal = shape.BoundBox.DiagonalLength
+    scene = Scene(diagonal, outlines=False)
+    blamed = {kind: {int(number) for number in re.findall(kind + r"(\d+)\b", row["reason"])} for kind in ("Face", "Edge")}
+    for number, face in enumerate(shape.Faces, 1):
+        points, triangles = face.tessellate(0.002 * diagonal)
+        points = np.array([tuple(p) for p in points]).reshape(-1, 3)
+        scene.facets += [points[list(triangle)] for triangle in triangles]
+        scene.facet_colours += [RED if number in blamed["Face"] else STEEL] * len(triangles)
+    add_edges(scene, shape, blamed["Edge"], diagonal)
+    return scene
+
+
+def main():
+    part, result, mesh, picture = sys.argv[1:]
+    with open(result, encoding="utf-8") as file:
+        row = json.load(file)
+    shape = Part.Shape()
+    shape.read(part)
+    scene = mesh_scene(shape, mesh, row) if "report" in row else cad_scene(shape, row)
+    figure, axes = pyplot.subplots(1, 2, figsize=(11, 5.5))
+    for place, eye in zip(axes, EYES):
+        scene.draw(place, eye)
+    figure.subplots_adjust(0, 0, 1, 1, 0, 0)
+    figure.savefig(picture, dpi=90)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -8,7 +8,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from table import line, read_row  # noqa: E402
 
 _jobs = {}  # number -> (rule, key)
-_share = 0.0  # of the jobs of this run that are done
+_waiting = []  # lines of jobs that are done, for the share of all that is told next
 
 
 def _last_rule():
@@ -18,13 +18,14 @@ def _last_rule():
 
 
 def log_handler(message):
-    global _share
     level = message["level"]
     if level == "job_info":
         _jobs[message["jobid"]] = (message["name"], dict(message["wildcards"]).get("key"))
     elif level == "progress":
-        _share = message["done"] / max(message["total"], 1)
+        for text in _waiting:
+            print("{:3.0f} %  {}".format(100 * message["done"] / max(message["total"], 1), text), flush=True)
+        _waiting.clear()
     elif level == "job_finished":
         rule, key = _jobs.get(message["jobid"], (None, None))
         if rule == _last_rule():
-            print("{:3.0f} %  {}".format(100 * _share, line(read_row(".", key))), flush=True)
+            _waiting.append(line(read_row(".", key)))

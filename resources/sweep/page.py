@@ -37,10 +37,10 @@ def html_table(head, lines):
 
 
 def figure(folder, row):
-    with open(os.path.join(folder, "pictures", row["key"] + ".png"), "rb") as file:
+    with open(os.path.join(folder, "pictures", row["key"] + ".webp"), "rb") as file:
         image = base64.b64encode(file.read()).decode()
     texts = cells(row)
-    return "<figure id='{}'><img src='data:image/png;base64,{}' alt=''><figcaption class='{}'><b>{}</b>: {}. {}</figcaption></figure>\n".format(
+    return "<figure id='{}'><img src='data:image/webp;base64,{}' alt=''><figcaption class='{}'><b>{}</b>: {}. {}</figcaption></figure>\n".format(
         html.escape(row["key"], True), image, outcome(row), html.escape(row["part"]), html.escape(texts[1]), html.escape(row["reason"]))
 
 

@@ -1,4 +1,4 @@
-"""Picture of a mesh on its part, or of a part without a mesh: picture.py PART RESULT.json MESH.vtu PICTURE.png.
+"""Picture of a mesh on its part, or of a part without a mesh: picture.py PART RESULT.json MESH.vtu PICTURE.webp.
 
 Two views from opposite corners. The mesh's boundary is coloured by the quality of its cells, from white to red below BAD; cells inside that are bad are
 dots, drawn over everything. CAD edges are black, those without mesh edges red. Where there is no mesh the CAD itself is drawn, with the faces and edges that the reason
@@ -105,7 +105,6 @@ class Scene:
             axes.plot(seen[:, 0], seen[:, 1], "o", color=RED, markeredgecolor="white", markersize=4, markeredgewidth=0.6)
         axes.autoscale_view()
         axes.set_aspect("equal")
-        axes.axis("off")
 
 
 def add_edges(scene, shape, lost, diagonal):
@@ -118,15 +117,26 @@ def add_edges(scene, shape, lost, diagonal):
         scene.line_colours += [colour] * (len(points) - 1)
 
 
+def read_shape(part):
+    """None where FreeCAD's Part does not read it: a document, a file that is none."""
+    shape = Part.Shape()
+    try:
+        shape.read(part)
+    except (OSError, RuntimeError, Part.OCCError):
+        return None
+    return shape if shape.Faces else None
+
+
 def mesh_scene(shape, mesh, row):
-    scene = Scene(shape.BoundBox.DiagonalLength, outlines=True)
     points, cells = read_hexes(mesh)
+    scene = Scene(np.linalg.norm(np.ptp(points[cells], axis=(0, 1))), outlines=True)
     quality = scaled_jacobians(points, cells)
     quads, owner = boundary(cells)
     scene.facets, scene.facet_colours = list(points[quads]), list(quality_colours(quality[owner]))
     inner = np.setdiff1d(np.flatnonzero(quality < BAD), owner)
     scene.dots = list(points[cells[inner]].mean(axis=1))
-    add_edges(scene, shape, set(row["report"]["cad"]["edges"]["lost"]), shape.BoundBox.DiagonalLength)
+    if shape:
+        add_edges(scene, shape, set(row["report"]["cad"]["edges"]["lost"]), scene.diagonal)
     return scene
 
 
@@ -147,14 +157,15 @@ def main():
     part, result, mesh, picture = sys.argv[1:]
     with open(result, encoding="utf-8") as file:
         row = json.load(file)
-    shape = Part.Shape()
-    shape.read(part)
-    scene = mesh_scene(shape, mesh, row) if "report" in row else cad_scene(shape, row)
+    shape = read_shape(part)
+    scene = mesh_scene(shape, mesh, row) if "report" in row else cad_scene(shape, row) if shape else None
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 5.5))
     for place, eye in zip(axes, EYES):
-        scene.draw(place, eye)
+        place.axis("off")
+        if scene:
+            scene.draw(place, eye)
     figure.subplots_adjust(0, 0, 1, 1, 0, 0)
-    figure.savefig(picture, dpi=90)
+    figure.savefig(picture, dpi=90, pil_kwargs={"quality": 70})
     return 0
 
 

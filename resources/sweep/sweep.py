@@ -27,6 +27,11 @@ class BadInput(Exception):
     pass
 
 
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        raise BadInput(message)
+
+
 def key_of(name):
     """`name` where a shell and Snakemake's wildcards take it as it is; otherwise something like it, and as unique."""
     plain = re.sub(r"[^A-Za-z0-9._+-]", "_", name)
@@ -71,7 +76,7 @@ def check_options(program, options):
 
 
 def parse(arguments):
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="polycube sweep", allow_abbrev=False, usage="polycube sweep FOLDER -o PAGE [--jobs N] [...] [options of polycube mesh, for every part]",
         description="Meshes every part in a folder; a page tells what came out. Stopped, it goes on where it was. Exit status 0: every part was answered for, "
         "1: bad arguments, 2: a crash or an invalid mesh among the answers, 3: stopped.")
@@ -84,13 +89,13 @@ def parse(arguments):
     parser.add_argument("--threads", type=int, default=1, metavar="N", help="of the mesher for each part; default: %(default)d")
     parser.add_argument("--judge", default="", metavar="PATH", help="program that is called as PATH PART MESH --json for a verdict on every mesh")
     parser.add_argument("--profile", metavar="NAME", help="Snakemake's profile of a cluster, which then runs the jobs")
-    if not arguments or arguments[0].startswith("-"):
-        arguments = [argument for argument in arguments if argument in ("-h", "--help")] or arguments[:0]
+    if arguments[:1] not in (["-h"], ["--help"]) and (not arguments or arguments[0].startswith("-")):
+        raise BadInput("the folder of the parts comes first, before all options")
     given, options = parser.parse_known_args(arguments)
     if given.jobs < 1 or given.threads < 1 or given.time_limit < 0 or given.cpu_limit < 0:
         raise BadInput("--jobs and --threads are 1 at least, limits 0 at least")
     if not os.path.isdir(given.folder):
-        raise BadInput("there is no folder {}; it comes first, before all options".format(given.folder))
+        raise BadInput("there is no folder {}".format(given.folder))
     if not given.output.endswith((".html", ".md")):
         raise BadInput(given.output + ": the suffix must be .html or .md")
     if given.judge and not os.access(given.judge, os.X_OK):

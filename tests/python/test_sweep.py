@@ -1,0 +1,212 @@
+"""The command `sweep`: goes on where it was stopped, takes whatever answer a part gives, judges, makes its page."""
+
+import glob
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from support import PROGRAM, REPO, FolderTest, box, cylinder, plate
+
+SCRIPTS = os.path.join(REPO, "resources", "sweep")
+SWEEP = os.path.join(SCRIPTS, "sweep.py")
+MESH = ("--order", "1", "--hexes", "60")
+
+# Answers as no part gives them at will: by its name the part is the program's undoing.
+PROGRAM_THAT_FAILS = """#!/bin/sh
+case $2 in
+*/crash.*) kill -SEGV $$ ;;
+*/endless.*) while :; do :; done ;;
+*/refused.*) echo 'polycube: stage label: no way out (Face3, Edge12)' >&2; exit 2 ;;
+*/late.*) echo 'polycube: out of time' >&2; exit 3 ;;
+esac
+exec {} "$@"
+"""
+
+JUDGE = """#!/bin/sh
+case $1 in
+*wrong*) echo '{"valid": false, "faces": 0.5}' ;;
+*silent*) echo 'no such thing' >&2; exit 1 ;;
+*) echo '{"valid": true, "vertices": 1, "sharp_edges": 1, "faces": 0.9}' ;;
+esac
+"""
+
+
+def children(pid):
+    with open("/proc/{0}/task/{0}/children".format(pid), encoding="ascii") as file:
+        return [int(number) for number in file.read().split()]
+
+
+class SweepTest(FolderTest):
+    def setUp(self):
+        super().setUp()
+        os.mkdir(self.path("parts"))
+        self.page, self.work = self.path("page.html"), self.path("page.sweep")
+
+    def add(self, shape, *names):
+        for name in names:
+            self.save(shape, os.path.join("parts", name))
+
+    def script(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        os.chmod(self.path(name), 0o755)
+        return self.path(name)
+
+    def command(self, *arguments, program=PROGRAM):
+        return [sys.executable, SWEEP, program, self.path("parts"), "-o", self.page, "--jobs", "1", *arguments]
+
+    def sweep(self, *arguments, status=0, **settings):
+        run = subprocess.run(self.command(*arguments, **settings), capture_output=True, text=True)
+        self.assertEqual(run.returncode, status, run.stderr + self.log())
+        return run
+
+    def log(self):
+        path = os.path.join(self.work, "snakemake.log")
+        if not os.path.exists(path):
+            return ""
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+
+    def results(self):
+        """Key -> when its result was written."""
+        paths = glob.glob(os.path.join(self.work, "results", "*.json"))
+        return {os.path.basename(path)[:-len(".json")]: os.stat(path).st_mtime_ns for path in paths}
+
+    def row(self, key, kind="results"):
+        with open(os.path.join(self.work, kind, key + ".json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def text(self, path=None):
+        with open(path or self.page, encoding="utf-8") as file:
+            return file.read()
+
+    def stop_after(self, count, stop):
+        """Starts the sweep and calls stop(process) once `count` results are there. Returns what the process says."""
+        process = subprocess.Popen(self.command(*MESH), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and len(self.results()) < count:
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "the sweep ended by itself")
+        stop(process)
+        return process.communicate()
+
+
+class GoesOn(SweepTest):
+    def test_killed_in_the_middle(self):
+        for k in range(10):
+            self.add((box, cylinder, plate)[k % 3](), "part_{}.brep".format(k))
+
+        _, errors = self.stop_after(2, lambda process: process.send_signal(signal.SIGTERM))
+        self.assertIn("stopped", errors)
+        self.assertEqual(len(errors.splitlines()), 1, errors)
+        after_stop = self.results()
+        self.assertGreaterEqual(len(after_stop), 2)
+        self.assertFalse(os.path.exists(self.page))
+
+        def kill(process):
+            workflow = children(process.pid)
+            self.assertEqual(len(workflow), 1)
+            os.killpg(workflow[0], signal.SIGKILL)  # a session of its own
+            process.kill()
+
+        self.stop_after(len(after_stop) + 3, kill)
+        after_kill = self.results()
+        self.assertLess(len(after_kill), 10)
+        self.assertFalse(os.path.exists(self.page))
+
+        run = self.sweep(*MESH)
+        last = self.results()
+        self.assertEqual(len(last), 10)
+        for key, written in after_stop.items():
+            self.assertEqual(last[key], written, key + " was made twice")
+        # Of what was finished before the kill only the part whose files Snakemake had not yet noted as whole is made again.
+        again = [key for key, written in after_kill.items() if last[key] != written]
+        self.assertLessEqual(len(again), 1)
+        lines = run.stdout.splitlines()
+        self.assertEqual(len(lines), 10 - len(after_kill) + len(again) + 1, run.stdout)
+        self.assertEqual(lines[-1], self.page + ": 10 parts: 10 complete")
+        page = self.text()
+        self.assertEqual(page.count("<img src='data:image/webp;base64,"), 10)
+        self.assertNotIn("http", page.split("base64,")[0])
+
+        # All is there: nothing is made again, until a part, an option or the program is another.
+        self.assertEqual(len(self.sweep(*MESH).stdout.splitlines()), 1)
+        self.assertEqual(self.results(), last)
+        self.add(box(), "part_1.brep")
+        self.assertEqual(len(self.sweep(*MESH).stdout.splitlines()), 2)
+        self.assertEqual({key for key, written in self.results().items() if last[key] != written}, {"part_1.brep"})
+
+    def test_other_options_other_results(self):
+        self.add(box(), "box.brep")
+        self.sweep(*MESH)
+        first = self.row("box.brep")["report"]["counts"]["hexes"]
+        self.sweep("--order", "1", "--size", "0.5")
+        self.assertGreater(self.row("box.brep")["report"]["counts"]["hexes"], 2 * first)
+
+
+class Answers(SweepTest):
+    def test_whatever_comes(self):
+        self.add(plate(), "a plate {1} ä.brep", "good.brep", "crash.brep", "endless.brep", "refused.brep", "late.brep")
+        self.script(os.path.join("parts", "text.step"), "hello\n")
+        self.script(os.path.join("parts", "notes.txt"), "no part\n")
+        program = self.script("program", PROGRAM_THAT_FAILS.format(PROGRAM))
+        run = self.sweep(*MESH, "--cpu-limit", "1", program=program, status=2)
+        self.assertEqual(len(run.stdout.splitlines()), 8, run.stdout)
+        self.assertIn("7 parts: 2 complete, 1 refused, 1 bad input, 1 out of time, 1 no answer, 1 crash", run.stdout)
+        self.assertEqual([self.row(name + ".brep")["exit"] for name in ("good", "crash", "endless", "refused", "late")], [0, None, None, 2, 3])
+        self.assertIn("SIGSEGV", self.row("crash.brep")["reason"])
+        self.assertEqual(self.row("refused.brep")["reason"], "stage label: no way out (Face3, Edge12)")
+        good = self.row("good.brep")
+        self.assertGreater(good["memory_mb"], 1)
+        self.assertGreater(good["seconds"], 0)
+        page = self.text()
+        for text in ("a plate {1} ä.brep", "SIGSEGV", "no way out (Face3, Edge12)", "7/7"):
+            self.assertIn(text, page)
+
+        self.page = self.path("page.md")  # the same results
+        self.sweep(*MESH, "--cpu-limit", "1", program=program, status=2)
+        table = self.text()
+        self.assertIn("| crash.brep | crash | - |", table)
+        self.assertEqual(sum(line.startswith("| ") for line in table.splitlines()), 8)
+
+    def test_verdicts(self):
+        self.add(box(), "box_1.brep", "box_2_wrong.brep", "silent.brep")
+        run = self.sweep(*MESH, "--judge", self.script("judge", JUDGE), status=2)
+        self.assertIn("3 parts: 1 complete, 1 valid, 1 INVALID", run.stdout)
+        self.assertEqual(self.row("box_1.brep", "verdicts")["verdict"], "valid")
+        self.assertIn("no such thing", self.row("silent.brep", "verdicts")["verdict"])
+        self.assertIn("judge: INVALID", self.text())
+
+    def test_bad_arguments(self):
+        self.add(box(), "box.brep")
+        os.mkdir(self.path("empty"))
+        sweep, parts = [sys.executable, SWEEP, PROGRAM], self.path("parts")
+        for arguments in ([self.path("empty"), "-o", self.page], [self.path("none"), "-o", self.page], [parts, "-o", self.path("page.png")],
+                          [parts, "-o", "/proc/page.html"], [parts, "-o", self.page, "--sise", "3"],
+                          [parts, "-o", self.page, "--order", "3"], [parts, "-o", self.page, "--judge", self.path("none")], [parts, "-o", self.page, "--jobs", "0"],
+                          [parts, "-o", self.page, "--time-limit", "-1"], [parts], ["-o", self.page, parts], []):
+            with self.subTest(arguments):
+                run = subprocess.run([*sweep, *arguments], capture_output=True, text=True)
+                self.assertEqual(run.returncode, 1, run.stderr)
+                self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+                self.assertTrue(run.stderr.startswith("polycube: "), run.stderr)
+                self.assertEqual(sorted(os.listdir(self.folder)), ["empty", "parts"])
+
+
+class Cluster(SweepTest):
+    def test_jobs_go_through_a_profile(self):
+        """The queue is a script that runs what it is given: every mesh must come by way of it."""
+        self.add(box(), "box.brep")
+        queue = self.script("queue", "#!/bin/sh\necho \"$*\" >> {}\nsh \"$1\" > /dev/null 2>&1\necho 1\n".format(self.path("queue.log")))
+        os.mkdir(self.path("profile"))
+        self.script(os.path.join("profile", "config.yaml"), "cluster: {}\nlatency-wait: 60\n".format(queue))
+        run = self.sweep(*MESH, "--profile", self.path("profile"))
+        self.assertIn("1 parts: 1 complete", run.stdout)
+        self.assertEqual(sum("mesh" in line for line in self.text(self.path("queue.log")).splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -68,8 +68,7 @@ class Scene:
         self.facets, self.facet_colours, self.lines, self.line_colours, self.dots = [], [], [], [], []
         self.outlines = outlines  # of the facets
         self.diagonal = diagonal
-        # Lines lie on facets, so they are drawn as if they were nearer, by some widths of a facet; the CAD's facets are long.
-        self.slack = (0.01 if outlines else 0.04) * diagonal
+        self.slack = 0.01 * diagonal  # lines lie on facets, so they are drawn as if they were nearer
 
     def draw(self, axes, eye):
         towards = eye / np.linalg.norm(eye)
@@ -107,6 +106,11 @@ class Scene:
         axes.set_aspect("equal")
 
 
+def numbers_in(text, kind):
+    """Of the CAD entities of a kind that a text names: 3 and 12 for "Face3, Face12"."""
+    return {int(number) for number in re.findall(kind + r"(\d+)\b", text)}
+
+
 def add_edges(scene, shape, lost, diagonal):
     for number, edge in enumerate(shape.Edges, 1):
         if edge.Degenerated:
@@ -136,20 +140,37 @@ def mesh_scene(shape, mesh, row):
     inner = np.setdiff1d(np.flatnonzero(quality < BAD), owner)
     scene.dots = list(points[cells[inner]].mean(axis=1))
     if shape:
-        add_edges(scene, shape, set(row["report"]["cad"]["edges"]["lost"]), scene.diagonal)
+        add_edges(scene, shape, numbers_in(" ".join(row["report"]["cad"]["edges"]["lost"]), "Edge"), scene.diagonal)
     return scene
 
 
-def cad_scene(shape, row):
+def split(triangles, longest):
+    """Triangles, (n, 3, 3), bisected until no side is longer: those drawn from back to front must be small."""
+    done = []
+    while len(triangles):
+        sides = np.linalg.norm(triangles - np.roll(triangles, -1, axis=1), axis=2)
+        small = sides.max(axis=1) <= longest
+        done.append(triangles[small])
+        rest = triangles[~small]
+        # Turned so that the longest side is the first.
+        rest = np.take_along_axis(rest, ((sides[~small].argmax(axis=1)[:, None] + np.arange(3)) % 3)[:, :, None], axis=1)
+        middle = (rest[:, 0] + rest[:, 1]) / 2
+        triangles = np.concatenate([np.stack([rest[:, 0], middle, rest[:, 2]], axis=1), np.stack([middle, rest[:, 1], rest[:, 2]], axis=1)])
+    return np.concatenate(done)
+
+
+def cad_scene(shape, reason=""):
     diagonal = shape.BoundBox.DiagonalLength
     scene = Scene(diagonal, outlines=False)
-    blamed = {kind: {int(number) for number in re.findall(kind + r"(\d+)\b", row["reason"])} for kind in ("Face", "Edge")}
+    faces = numbers_in(reason, "Face")
     for number, face in enumerate(shape.Faces, 1):
         points, triangles = face.tessellate(0.002 * diagonal)
-        points = np.array([tuple(p) for p in points]).reshape(-1, 3)
-        scene.facets += [points[list(triangle)] for triangle in triangles]
-        scene.facet_colours += [RED if number in blamed["Face"] else STEEL] * len(triangles)
-    add_edges(scene, shape, blamed["Edge"], diagonal)
+        if not triangles:
+            continue
+        facets = split(np.array([tuple(p) for p in points])[np.array(triangles)], 0.04 * diagonal)
+        scene.facets += list(facets)
+        scene.facet_colours += [RED if number in faces else STEEL] * len(facets)
+    add_edges(scene, shape, numbers_in(reason, "Edge"), diagonal)
     return scene
 
 
@@ -158,7 +179,7 @@ def main():
     with open(result, encoding="utf-8") as file:
         row = json.load(file)
     shape = read_shape(part)
-    scene = mesh_scene(shape, mesh, row) if "report" in row else cad_scene(shape, row) if shape else None
+    scene = mesh_scene(shape, mesh, row) if "report" in row else cad_scene(shape, row["reason"]) if shape else None
     figure, axes = pyplot.subplots(1, 2, figsize=(11, 5.5))
     for place, eye in zip(axes, EYES):
         place.axis("off")

@@ -52,38 +52,46 @@ def pose(draw):
     return FreeCAD.Placement(FreeCAD.Vector(*[draw.length(-100, 100) for _ in range(3)]), rotation)
 
 
-def make(name, index, seed):
-    """Part number `index` of a family: its solid, and why earlier draws were no part."""
-    build = {**FAMILIES, **HARD}[name]
-    reasons = []
-    for attempt in range(ATTEMPTS):
-        draw = Draw(seed, name, index, attempt)
-        try:
-            shape = build(draw)
-        except (Unsuitable, Part.OCCError, ValueError) as error:
-            reasons.append(str(error).strip())
-            continue
-        reason = fault(shape, name in QUICK)
-        if reason is None:
-            solid = shape.Solids[0].copy()
-            solid.Placement = pose(draw).multiply(solid.Placement)
-            if solid.isValid():
-                return solid, reasons
-            reason = "not valid in its pose"
-        reasons.append(reason)
-    raise SystemExit("generate: {} {}: no valid part in {} draws: {}".format(name, index, ATTEMPTS, "; ".join(sorted(set(reasons)))))
-
-
-def write_step(solid, path):
-    """Without the time and the count of files that OpenCASCADE puts in."""
+def step_text(solid):
+    """As OpenCASCADE writes it, without the time and the count of files that it puts in."""
     with tempfile.TemporaryDirectory() as folder:
-        solid.exportStep(os.path.join(folder, "part.step"))
-        with open(os.path.join(folder, "part.step"), encoding="utf-8") as file:
+        path = os.path.join(folder, "part.step")
+        solid.exportStep(path)
+        with open(path, encoding="utf-8") as file:
             text = file.read()
+        read = Part.Shape()
+        read.read(path)
     for pattern, constant in STAMP:
         text = pattern.sub(constant, text)
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
+    return text, read
+
+
+def draw_part(name, index, seed, attempt):
+    """(text of the file, its solid), or the reason why the draw is no part."""
+    draw = Draw(seed, name, index, attempt)
+    try:
+        shape = {**FAMILIES, **HARD}[name](draw)
+    except (Unsuitable, Part.OCCError, ValueError) as error:
+        return str(error).strip()
+    reason = fault(shape, name in QUICK)
+    if reason:
+        return reason
+    solid = shape.Solids[0].copy()
+    solid.Placement = pose(draw).multiply(solid.Placement)
+    text, read = step_text(solid)
+    reason = fault(read, quick=True)
+    return "as a file: " + reason if reason else (text, read.Solids[0])
+
+
+def make(name, index, seed):
+    """Part number `index` of a family, as the text of its file and as a solid, and why earlier draws were no part."""
+    reasons = []
+    for attempt in range(ATTEMPTS):
+        drawn = draw_part(name, index, seed, attempt)
+        if not isinstance(drawn, str):
+            return (*drawn, reasons)
+        reasons.append(drawn)
+    raise SystemExit("generate: {} {}: no valid part in {} draws: {}".format(name, index, ATTEMPTS, "; ".join(sorted(set(reasons)))))
 
 
 def main():
@@ -106,9 +114,10 @@ def main():
     os.makedirs(given.folder, exist_ok=True)
     for name in names:
         for index in range(given.per_family):
-            solid, reasons = make(name, index, given.seed)
+            text, solid, reasons = make(name, index, given.seed)
             path = os.path.join(given.folder, "{}_{:02d}.step".format(name, index))
-            write_step(solid, path)
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
             print("{}: {} faces, {:.0f} mm across{}".format(path, len(solid.Faces), solid.BoundBox.DiagonalLength,
                                                             ", {} draws before".format(len(reasons)) if reasons else ""), flush=True)
     return 0

@@ -9,7 +9,8 @@ import sys
 from table import HEAD, ORDER, cells, counts, families, outcome, read_row
 
 STYLE = """body{font-family:sans-serif;margin:1em 2em}table{border-collapse:collapse;font-size:80%}td,th{border:1px solid #ccc;padding:2px 6px}td{vertical-align:top}
-.complete{background:#e4f4e4}.valid{background:#fff6d8}.refused,.bad.input{background:#ffe6cc}.out.of.time,.no.answer{background:#ffd9d0}.crash,.INVALID{background:#f6b8b8}
+.complete{background:#e4f4e4}.valid{background:#fff6d8}.refused,.bad.input{background:#ffe6cc}.out.of.time,.no.answer{background:#ffd9d0}
+.crash,.INVALID{background:#f6b8b8}
 figure{display:inline-block;margin:8px;width:660px;vertical-align:top}img{width:100%}figcaption{font-size:85%}"""
 
 
@@ -54,9 +55,10 @@ def page(folder, rows, settings):
     tables = html_table(HEAD, lines)
     if families(rows):
         tables += "<h2>Families</h2>" + html_table(["family", "parts", *ORDER], [("", [html.escape(text) for text in texts]) for texts in family_cells(rows)])
-    return ("<!DOCTYPE html><meta charset='utf-8'><title>Sweep</title><style>{}</style>\n<h1>Sweep</h1><p>{}</p><p>Options of the mesher: <code>{}</code>; time limit {:g} s, "
-            "processor time limit {:g} s.</p>\n{}<h2>Pictures</h2><p>Worst first. Cells of a scaled Jacobian below 0.2 are orange to red, those inside are red dots; CAD "
-            "edges without mesh edges are red. Without a mesh: the part, with what the reason names in red.</p>\n{}").format(
+    return ("<!DOCTYPE html><meta charset='utf-8'><title>Sweep</title><style>{}</style>\n<h1>Sweep</h1><p>{}</p>"
+            "<p>Options of the mesher: <code>{}</code>; time limit {:g} s, processor time limit {:g} s.</p>\n{}"
+            "<h2>Pictures</h2><p>Worst first. Cells of a scaled Jacobian below 0.2 are orange to red, those inside are red dots; CAD edges without mesh edges are red. "
+            "Without a mesh: the part, with what the reason names in red.</p>\n{}").format(
                 STYLE, html.escape(counts(rows)), html.escape(settings["options"]), settings["time_limit"], settings["cpu_limit"], tables,
                 "".join(figure(folder, row) for row in worst_first))
 

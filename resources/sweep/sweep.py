@@ -6,6 +6,7 @@ stopped, and redoes what another program, part or option would change.
 
 import argparse
 import fcntl
+import glob
 import hashlib
 import json
 import os
@@ -61,9 +62,12 @@ def link_parts(parts, folder):
         os.symlink(path, link)
 
 
-def digest(path):
-    with open(path, "rb") as file:
-        return hashlib.sha256(file.read()).hexdigest()
+def digest(*paths):
+    found = hashlib.sha256()
+    for path in paths:
+        with open(path, "rb") as file:
+            found.update(file.read())
+    return found.hexdigest()
 
 
 def check_options(program, options):
@@ -105,7 +109,8 @@ def parse(arguments):
 
 def snakemake(given, work, lock):
     """Runs the workflow to its end and returns its exit status, or None where the user stopped it."""
-    command = [sys.executable, "-m", "snakemake", "--snakefile", os.path.join(HERE, "Snakefile"), "--directory", work, "--configfile", os.path.join(work, "settings.json"),
+    command = [sys.executable, "-m", "snakemake", "--snakefile", os.path.join(HERE, "Snakefile"), "--directory", work,
+               "--configfile", os.path.join(work, "settings.json"),
                "--log-handler-script", os.path.join(HERE, "lines.py"), "--keep-going", "--rerun-incomplete", "--rerun-triggers", "mtime", "params", "input",
                "--scheduler", "greedy", "--nolock"]
     command += ["--profile", given.profile, "--jobs", str(given.jobs)] if given.profile else ["--cores", str(given.jobs * given.threads)]
@@ -135,7 +140,7 @@ def sweep(program, given, options):
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise BadInput("a sweep in {} is running".format(work)) from None
-    settings = {"here": HERE, "python": sys.executable, "program": program, "digest": digest(program), "options": shlex.join(options), "threads": given.threads,
+    settings = {"here": HERE, "python": sys.executable, "program": program, "digest": digest(program, *sorted(glob.glob(glob.escape(program) + "-*"))), "options": shlex.join(options), "threads": given.threads,
                 "time_limit": given.time_limit, "cpu_limit": given.cpu_limit, "judge": os.path.abspath(given.judge) if given.judge else "",
                 "judge_digest": digest(given.judge) if given.judge else "", "page": page, "parts": list(parts)}
     link_parts(parts, os.path.join(work, "parts"))

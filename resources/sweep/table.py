@@ -5,7 +5,7 @@ import json
 import os
 import re
 
-HEAD = ["part", "result", "exit", "s", "cpu s", "MB", "hexes", "min SJ", "mean SJ", "faces", "edges", "reason"]
+HEAD = ["part", "result", "judge", "exit", "s", "cpu s", "MB", "hexes", "min SJ", "mean SJ", "faces", "edges", "reason"]
 # From good to bad; what a judge calls INVALID is worse than any answer without a mesh.
 ORDER = ["complete", "valid", "refused", "bad input", "out of time", "no answer", "crash", "INVALID"]
 FAULTS = {"crash", "INVALID"}
@@ -30,8 +30,8 @@ def outcome(row):
 def cells(row):
     """The row's texts under HEAD."""
     report = row.get("report")
-    texts = [row["part"], row["result"] + (" (judge: {})".format(row["verdict"]) if row.get("verdict") not in (None, "", row["result"]) else ""),
-             "-" if row["exit"] is None else str(row["exit"]), "{:.1f}".format(row["seconds"]), "{:.1f}".format(row["cpu_seconds"]), "{:.0f}".format(row["memory_mb"])]
+    texts = [row["part"], row["result"], row.get("verdict", ""), "-" if row["exit"] is None else str(row["exit"]),
+             "{:.1f}".format(row["seconds"]), "{:.1f}".format(row["cpu_seconds"]), "{:.0f}".format(row["memory_mb"])]
     if report:
         quality, cad = report["quality"], report["cad"]
         texts += [str(report["counts"]["hexes"]), "{:.3f}".format(quality["min_scaled_jacobian"]), "{:.3f}".format(quality["mean_scaled_jacobian"]),
@@ -42,9 +42,11 @@ def cells(row):
 
 
 def line(row):
-    texts = cells(row)
-    figures = "{:>6s} hexes  SJ {} {}  faces {} edges {}".format(*texts[6:11]) if "report" in row else ""
-    return "{:28s} {:10s} {:>7s} s {:>6s} MB  {}".format(texts[0], texts[1], texts[3], texts[5], "  ".join(text for text in (figures, texts[11][:140]) if text)).rstrip()
+    """The row for a terminal."""
+    part, result, judge, _, seconds, _, memory, hexes, least, mean, faces, edges, reason = cells(row)
+    rest = ["{:>6s} hexes  SJ {} {}  faces {} edges {}".format(hexes, least, mean, faces, edges) if hexes else "",
+            "judge: " + judge if judge not in ("", result) else "", reason[:140]]
+    return "{:28s} {:10s} {:>7s} s {:>6s} MB  {}".format(part, result, seconds, memory, "  ".join(text for text in rest if text)).rstrip()
 
 
 def counts(rows):

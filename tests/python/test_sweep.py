@@ -169,7 +169,7 @@ class Answers(SweepTest):
         self.page = self.path("page.md")  # the same results
         self.sweep(*MESH, "--cpu-limit", "1", program=program, status=2)
         table = self.text()
-        self.assertIn("| crash.brep | crash | - |", table)
+        self.assertIn("| crash.brep | crash |  | - |", table)
         self.assertEqual(sum(line.startswith("| ") for line in table.splitlines()), 8)
 
     def test_verdicts(self):
@@ -178,7 +178,8 @@ class Answers(SweepTest):
         self.assertIn("3 parts: 1 complete, 1 valid, 1 INVALID", run.stdout)
         self.assertEqual(self.row("box_1.brep", "verdicts")["verdict"], "valid")
         self.assertIn("no such thing", self.row("silent.brep", "verdicts")["verdict"])
-        self.assertIn("judge: INVALID", self.text())
+        self.assertIn("judge: INVALID", run.stdout)
+        self.assertIn("<td>complete</td><td>INVALID</td>", self.text())
 
     def test_bad_arguments(self):
         self.add(box(), "box.brep")

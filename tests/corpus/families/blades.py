@@ -3,7 +3,7 @@
 import math
 
 from .registry import hard
-from .tools import V, X, Z, cut, cylinder, polar, require, turned, turned_copies, union, Part
+from .tools import V, Z, Part, cut, cylinder, require, turned, turned_copies, union
 
 
 def _blade(inner, outer, bottom, top, twist, thickness, sections=5):

@@ -1,8 +1,8 @@
 """Cast parts: fillets, bosses, cavities, pipes."""
 
 from .registry import family
-from .tools import (V, X, Y, Z, any_edge, at_height, block, cut, cylinder, fillet, is_circle, is_upright, polar, polygon, require, ring_of, rounded_slab, slab,
-                    turned_copies, union, ORIGIN, Part)
+from .tools import (ORIGIN, V, X, Y, Z, Part, at_height, block, cut, cylinder, fillet, polar, polygon, require, ring_of, rounded_slab, slab,
+                    turned_copies, union)
 
 
 @family

@@ -3,7 +3,7 @@
 import math
 
 from .registry import family
-from .tools import V, arc, cut, cylinder, face_of, fillet, keyed_bore, polar, require, ring_of, slab, strap, turned, union, Part
+from .tools import V, arc, cut, cylinder, face_of, fillet, keyed_bore, polar, polygon, require, ring_of, slab, strap, turned, union, Part
 
 
 def _gear_outline(teeth, module, points=6):
@@ -101,7 +101,10 @@ def cam(draw):
         centre = V(x, y, 0)
         on_base, on_nose = centre * (-base / a), V(rise, 0, 0) + (V(rise, 0, 0) - centre) * (nose / b)
         middle = centre + ((on_base + on_nose) * 0.5 - centre).normalize() * large
-        flip = lambda p: V(p.x, -p.y, 0)  # noqa: E731
+
+        def flip(p):
+            return V(p.x, -p.y, 0)
+
         body = face_of(arc(on_base, middle, on_nose), arc(on_nose, (rise + nose, 0, 0), flip(on_nose)), arc(flip(on_nose), flip(middle), flip(on_base)),
                        arc(flip(on_base), (-base, 0, 0), on_base)).extrude(V(0, 0, width))
     bore = base * draw.real(0.35, 0.5)
@@ -133,12 +136,9 @@ def ratchet(draw):
     """Saw teeth round a disc, a hub, a bore with a keyway or a square."""
     teeth, radius, width = draw.count(8, 16), draw.length(30, 42), draw.length(6, 12)
     depth = draw.length(4, 6)
-    outline = []
-    for k in range(teeth):
-        turn = 360.0 * k / teeth
-        outline += [tuple(polar(radius, turn))[:2], tuple(polar(radius - depth, turn + draw_lead(teeth)))[:2]]
-    face = Part.Face(Part.makePolygon([V(x, y, 0) for x, y in [*outline, outline[0]]]))
-    body = face.extrude(V(0, 0, width))
+    lead = 360.0 / teeth / 15  # from a tooth's tip to its foot, past the radial line
+    outline = [at for k in range(teeth) for at in (polar(radius, 360.0 * k / teeth), polar(radius - depth, 360.0 * k / teeth + lead))]
+    body = polygon(outline).extrude(V(0, 0, width))
     hub, height = 0.45 * radius, width + draw.length(4, 10)
     if draw.chance(0.6):
         body = union(body, cylinder(hub, height))
@@ -146,11 +146,6 @@ def ratchet(draw):
         height = width
     bore = 0.25 * radius
     return cut(body, draw.pick(cylinder(bore, height), keyed_bore(bore, 0.5 * bore, height), slab(1.4 * bore, 1.4 * bore, height)))
-
-
-def draw_lead(teeth):
-    """Degrees from a tooth's tip to its foot: a fifteenth of the pitch past the radial line."""
-    return 360.0 / teeth / 15
 
 
 @family

@@ -1,8 +1,7 @@
 """Parts of the kinds on which hexahedral meshers are known to fail, but for those with threads and blades."""
 
 from .registry import hard
-from .tools import (V, X, Y, Z, any_edge, at_height, block, cut, cylinder, fillet, is_circle, is_upright, polar, polygon, require, ring_of, rounded_slab, slab, strap,
-                    turned, union, ORIGIN, Part)
+from .tools import (ORIGIN, V, X, Y, Z, Part, block, cut, cylinder, fillet, is_upright, polar, require, rounded_slab, slab, strap, union)
 
 
 @hard

@@ -1,8 +1,8 @@
 """Parts milled from plate and bar, or bent from sheet."""
 
 from .registry import family
-from .tools import (V, X, Y, Z, Unsuitable, block, chamfer, cone, cut, cylinder, fillet, is_upright, line, polygon, prism, require, rounded_slab, slab, slot, strap,
-                    union, Part)
+from .tools import (V, X, Y, Z, Part, block, chamfer, cone, cut, cylinder, fillet, is_upright, polygon, prism, require, rounded_slab, slab, slot, strap,
+                    union)
 
 
 @family

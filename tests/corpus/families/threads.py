@@ -1,11 +1,10 @@
 """Screws, nuts and what has a thread. The plain ones have smooth shanks and bores; those with helical threads are hard."""
 
-from .registry import family, hard
-from .tools import (V, Z, ORIGIN, chamfer, cone, cut, cylinder, face_of, fillet, hexagon, is_circle, line, polar, polygon, require, ring_of, slab, strap, turned,
-                    turned_copies, union, Part, arc)
-
 import math
 
+from .registry import family, hard
+from .tools import (ORIGIN, V, Z, Part, arc, cone, cut, cylinder, face_of, fillet, hexagon, is_circle, line, polygon, require, slab, turned,
+                    turned_copies, union)
 
 def chamfered_hexagon(across_flats, height, top, bottom=False, share=1.0):
     """A hexagon whose corners a cone of 30 degrees takes off. The cone's circle on the end is `share` of the width across flats: at 1 it touches the six edges."""
@@ -105,7 +104,8 @@ def pump_nut(draw):
     body = fillet(body, draw.length(1.5, 3), lambda edge: abs(edge.BoundBox.ZLength - 0.6 * height) < 1e-3)
     seat = bore * draw.real(0.6, 0.75)
     shoulder = 0.3 * height
-    return cut(body, turned([(0, -1), (seat, -1), (seat, 0.5 * shoulder), (bore, shoulder), (bore, height - 2), (bore + 2, height), (bore + 2, height + 1), (0, height + 1)]))
+    inside = [(0, -1), (seat, -1), (seat, 0.5 * shoulder), (bore, shoulder), (bore, height - 2), (bore + 2, height), (bore + 2, height + 1), (0, height + 1)]
+    return cut(body, turned(inside))
 
 
 @hard

@@ -6,6 +6,7 @@ from .registry import family, hard
 from .tools import (ORIGIN, V, Z, Part, arc, cone, cut, cylinder, face_of, fillet, hexagon, is_circle, line, polygon, require, slab, turned,
                     turned_copies, union)
 
+
 def chamfered_hexagon(across_flats, height, top, bottom=False, share=1.0):
     """A hexagon whose corners a cone of 30 degrees takes off. The cone's circle on the end is `share` of the width across flats: at 1 it touches the six edges."""
     radius = across_flats / math.sqrt(3)

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "core/draft.h"
@@ -24,6 +25,8 @@ namespace {
 // From the deadline to the end by force: what a child that notices the deadline needs to write what it has, within the 2 s that the
 // contract gives.
 constexpr auto kGrace = std::chrono::milliseconds(1500);
+// Longer is not waited for a killed child to give its memory back; it runs no more.
+constexpr auto kBurial = std::chrono::milliseconds(200);
 constexpr auto kPoll = std::chrono::milliseconds(5);
 
 volatile std::sig_atomic_t g_stops = 0;
@@ -60,19 +63,23 @@ class SharedNote {
 
 /// Waits for the child; forwards what stops it. True where it had to be killed.
 bool await(pid_t child, Monitor::Clock::time_point deadline, int& status) {
-  const auto end = deadline == Monitor::Clock::time_point::max() ? deadline : deadline + kGrace;
-  int forwarded = 0;
-  bool killed = false;
+  using Clock = Monitor::Clock;
+  const Clock::time_point end = deadline == Clock::time_point::max() ? deadline : deadline + kGrace;
+  std::optional<Clock::time_point> killed;
+  bool forwarded = false;
   for (;;) {
-    const pid_t ended = waitpid(child, &status, killed ? 0 : WNOHANG);
-    if (ended == child) return killed;
-    if (ended < 0 && errno != EINTR) return true;
-    if (g_stops > forwarded) kill(child, SIGTERM), forwarded = 1;
-    if (!killed && (g_stops > 1 || Monitor::Clock::now() > end)) {
-      kill(child, SIGKILL);
-      killed = true;
+    const pid_t ended = waitpid(child, &status, WNOHANG);
+    if (ended == child) return killed.has_value();
+    if ((ended < 0 && errno != EINTR) || (killed && Clock::now() > *killed + kBurial)) return true;
+    if (g_stops > 0 && !forwarded) {
+      kill(child, SIGTERM);
+      forwarded = true;
     }
-    if (!killed) std::this_thread::sleep_for(kPoll);
+    if (!killed && (g_stops > 1 || Clock::now() > end)) {
+      kill(child, SIGKILL);
+      killed = Clock::now();
+    }
+    std::this_thread::sleep_for(kPoll);
   }
 }
 

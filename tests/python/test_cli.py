@@ -236,7 +236,7 @@ class Documents(FolderTest):
 
     def points(self):
         with open(self.path("a.inp")) as file:
-            rows = file.read().split("*ELEMENT")[0].splitlines()[2:]
+            rows = [row for row in file.read().split("*ELEMENT")[0].splitlines() if not row.startswith("*")]
         return np.array([[float(x) for x in row.split(",")[1:]] for row in rows])
 
     @staticmethod

@@ -156,7 +156,7 @@ class Documents(Reading):
         run = self.run_program("mesh", path, "-o", self.path("a.inp"), "--size", "2", "--order", "1", *arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         with open(self.path("a.inp")) as file:
-            rows = file.read().split("*ELEMENT")[0].splitlines()[2:]
+            rows = [row for row in file.read().split("*ELEMENT")[0].splitlines() if not row.startswith("*")]
         points = np.array([[float(x) for x in row.split(",")[1:]] for row in rows])
         return [*points.min(axis=0), *points.max(axis=0)], run.stdout
 

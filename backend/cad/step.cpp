@@ -6,6 +6,7 @@
 #include <Interface_InterfaceModel.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Reader.hxx>
+#include <Standard_Version.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
@@ -19,6 +20,9 @@
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <fstream>
+#if OCC_VERSION_HEX >= 0x070800
+#include <StepData_Factors.hxx>
+#endif
 
 #include "cad/occt.h"
 #include "cad/shape.h"
@@ -164,7 +168,11 @@ double declared_tolerance(const Interface_InterfaceModel& model) {
     const auto context = opencascade::handle<StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx>::DownCast(model.Value(i));
     if (context.IsNull() || context->GlobalUnitAssignedContext().IsNull() || context->GlobalUncertaintyAssignedContext().IsNull()) continue;
     STEPConstruct_UnitContext units;
+#if OCC_VERSION_HEX >= 0x070800
+    units.ComputeFactors(context->GlobalUnitAssignedContext(), StepData_Factors());
+#else
     units.ComputeFactors(context->GlobalUnitAssignedContext());
+#endif
     units.ComputeTolerance(context->GlobalUncertaintyAssignedContext());
     if (units.HasUncertainty()) largest = std::max(largest, units.Uncertainty() * units.LengthFactor());
   }

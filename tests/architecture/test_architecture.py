@@ -28,13 +28,15 @@ def read(path):
 
 
 def tracked():
-    """Files under version control, or all where there is none (a source archive)."""
-    run = subprocess.run(["git", "-C", REPO, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
-    if run.returncode == 0:
-        names = [name for name in run.stdout.split("\0") if name]
-    else:
+    """Files under version control, or all but what is made where there is none (a source archive, a machine without git)."""
+    try:
+        run = subprocess.run(["git", "-C", REPO, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True)
+        names = [name for name in run.stdout.split("\0") if name] if run.returncode == 0 else None
+    except FileNotFoundError:
+        names = None
+    if names is None:
         names = [os.path.relpath(os.path.join(folder, name), REPO) for folder, _, files in os.walk(REPO) for name in files]
-        names = [name for name in names if not name.startswith("build")]
+        names = [name for name in names if not (name.startswith(("build", ".git" + os.sep)) or name.endswith((".so", ".pyc")))]
     return [name for name in names if os.path.isfile(os.path.join(REPO, name))]
 
 

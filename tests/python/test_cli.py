@@ -87,7 +87,7 @@ class Cli(FolderTest):
         far = Part.makeBox(1, 1, 1, VECTOR(5, 0, 0))
         shapes = {
             "shell.brep": Part.makeShell(box().Faces[:5]),
-            "two.brep": Part.makeCompound([box(), far.translated(VECTOR(20, 0, 0))]),
+            "two.brep": Part.Compound([box(), far.translated(VECTOR(20, 0, 0))]),
             "face.brep": box().Faces[0],
             "edge.brep": box().Edges[0],
         }

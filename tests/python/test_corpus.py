@@ -68,7 +68,7 @@ class Corpus(FolderTest):
         inside_out = box.copy()
         inside_out.reverse()
         self.assertIsNone(generate.fault(box))
-        for shape in (Part.makeCompound([box, apart]), Part.makeCompound([box, apart.Faces[0]]), Part.makeShell(box.Faces[:5]), inside_out):
+        for shape in (Part.Compound([box, apart]), Part.Compound([box, apart.Faces[0]]), Part.makeShell(box.Faces[:5]), inside_out):
             self.assertIsNotNone(generate.fault(shape))
 
     def test_draws_that_make_no_part_are_drawn_again(self):

@@ -22,12 +22,12 @@ NAME = "Größe 1 für Ø 8 мм"
 def with_loose_things():
     """A line and a face, then the solid, then a vertex."""
     line = Part.makeLine(VECTOR(0, 0, 30), VECTOR(5, 0, 30))
-    return Part.makeCompound([line, Part.makePlane(3, 3, VECTOR(40, 0, 0)), plate(), Part.Vertex(9, 9, 50)])
+    return Part.Compound([line, Part.makePlane(3, 3, VECTOR(40, 0, 0)), plate(), Part.Vertex(9, 9, 50)])
 
 
 def apart():
     """The faces of a plate, none of which shares an edge with another."""
-    return Part.makeCompound([face.copy() for face in reversed(plate().Faces)])
+    return Part.Compound([face.copy() for face in reversed(plate().Faces)])
 
 
 class Reading(FolderTest):

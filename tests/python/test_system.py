@@ -31,6 +31,15 @@ class Packages(unittest.TestCase):
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
 
 
+class OutsideFreeCad(unittest.TestCase):
+    def test_compounds_are_made_by_the_class(self):
+        """Part.makeCompound of FreeCAD 1.0 is a crash in a Python that FreeCAD has not started, Part.Compound is not."""
+        for name in os.listdir(os.path.join(REPO, "tests", "python")):
+            if name.endswith(".py"):
+                with open(os.path.join(REPO, "tests", "python", name), encoding="utf-8") as file:
+                    self.assertNotIn("Part.make" + "Compound(", file.read(), name)
+
+
 class Solver(FolderTest):
     def program(self, name):
         with open(self.path(name), "w", encoding="ascii") as file:

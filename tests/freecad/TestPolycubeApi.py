@@ -209,6 +209,45 @@ class Options(unittest.TestCase):
             self.assertEqual(obj.Hexahedra, cells)
 
 
+class OtherShapes(unittest.TestCase):
+    """Shapes that are more or less than a solid."""
+
+    def setUp(self):
+        self.document = FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(self.document.Name))
+
+    def mesh(self, shape, **options):
+        part = self.document.addObject("Part::Feature", "Part")
+        part.Shape = shape
+        obj = polycube.create_fem_mesh(part, size=5, order=1, **options)
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        return part, obj.FemMesh
+
+    def check_faces(self, part, mesh, numbers):
+        """Groups of these faces only, and FreeCAD's own search finds their nodes."""
+        groups = {mesh.getGroupName(group): mesh.getGroupElements(group) for group in mesh.Groups if mesh.getGroupElementType(group) == "Face"}
+        self.assertEqual(set(groups), {"Face{}".format(number) for number in numbers})
+        for number in numbers:
+            nodes = {node for quad in groups["Face{}".format(number)] for node in mesh.getElementNodes(quad)}
+            self.assertEqual(nodes, set(mesh.getNodesByFace(part.Shape.Faces[number - 1])))
+
+    def test_loose_things_beside_the_solid(self):
+        loose = [Part.makeLine(Vector(0, 0, 50), Vector(9, 0, 50)), Part.makePlane(5, 5, Vector(50, 0, 0))]
+        part, mesh = self.mesh(Part.makeCompound([*loose, Part.makeBox(20, 10, 10)]))
+        self.check_faces(part, mesh, range(2, 8))
+        with self.assertRaises(polycube.InvalidInput) as caught:
+            self.mesh(part.Shape, keep_faces=["Face1"])
+        self.assertIn("Face1 does not belong to the solid", str(caught.exception))
+
+    def test_faces_without_a_solid(self):
+        apart = Part.makeCompound([face.copy() for face in Part.makeBox(20, 10, 10).Faces])
+        for shape in (apart, Part.makeBox(20, 10, 10).Shells[0]):
+            self.check_faces(*self.mesh(shape), range(1, 7))
+            with self.assertRaises(polycube.InvalidInput) as caught:
+                self.mesh(shape, sew=False)
+            self.assertIn("not a solid", str(caught.exception))
+
+
 class Labels(unittest.TestCase):
     """Labels to look at, and those that the user sets."""
 

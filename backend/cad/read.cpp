@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cad/exchange.h"
 #include "cad/occt.h"
 #include "cad/shape.h"
 
@@ -26,7 +27,7 @@ FileShape transfer_iges(const std::string& path, const Monitor& monitor) {
   IGESControl_Reader reader;
   // As FreeCAD: what the file marks as hidden is construction.
   reader.SetReadVisible(true);
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone) throw InvalidInput(path + ": not an IGES file");
+  if (!load_entities(reader.WS(), path)) throw InvalidInput(path + ": not an IGES file");
   monitor.check();
   const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
   reader.TransferRoots(progress->Start());

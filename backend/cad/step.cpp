@@ -1,5 +1,4 @@
 // STEP: what of the file is damaged, whether the solid uses it, and the shape of the rest.
-#include <IFSelect_ReturnStatus.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_EntityIterator.hxx>
 #include <Interface_Graph.hxx>
@@ -24,6 +23,7 @@
 #include <StepData_Factors.hxx>
 #endif
 
+#include "cad/exchange.h"
 #include "cad/occt.h"
 #include "cad/shape.h"
 
@@ -183,16 +183,16 @@ FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   STEPControl_Reader reader;
   StoppableFile file(path, monitor);
   std::istream stream(&file);
-  const IFSelect_ReturnStatus status = reader.ReadStream(path.c_str(), stream);
+  const bool loaded = load_entities(reader.WS(), path, &stream);
   monitor.check();
-  if (status != IFSelect_RetDone) throw InvalidInput(path + ": not a STEP file");
+  if (!loaded) throw InvalidInput(path + ": not a STEP file");
   const int faults = leave_out_damaged(reader, path);
   const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
   reader.TransferRoots(progress->Start());
   monitor.check();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
   FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
-  if (faults > 0) read.warnings.push_back("the STEP file is damaged where the part does not need it (" + std::to_string(faults) + (faults == 1 ? " fault)" : " faults)"));
+  if (faults > 0) read.warnings.push_back("OpenCASCADE finds " + std::to_string(faults) + (faults == 1 ? " fault" : " faults") + " in the STEP file; the solid is not built on any of them");
   return read;
 }
 

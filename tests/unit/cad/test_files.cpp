@@ -188,12 +188,12 @@ TEST(Files, FaultsBesideTheSolidDoNoHarm) {
   EXPECT_THAT(reads(replaced(step, "ADVANCED_FACE(''", "ADVANCED_FACE($")), IsEmpty());
   // An annotation that no reader knows, in a representation of its own and in that of the solid.
   EXPECT_THAT(reads(with_entities(step, "#9000 = LEADER_DIRECTED_CALLOUT('',(#11));\n#9001 = SHAPE_REPRESENTATION('',(#9000),$);\n")),
-              ElementsAre(HasSubstr("damaged where the part does not need it")));
+              ElementsAre(HasSubstr("the solid is not built on")));
   EXPECT_THAT(reads(with_entities(replaced(step, name + ",(", name + ",(#9000,"), "#9000 = LEADER_DIRECTED_CALLOUT('',(#11));\n")), IsEmpty());
   // Construction whose curve cannot be read, and a line that is no entity.
   EXPECT_THAT(reads(with_entities(replaced(step, name + ",(", name + ",(#9002,"), "#9002 = GEOMETRIC_CURVE_SET('',(#9003));\n#9003 = LINE('',#9004,#9005);\n")),
-              ElementsAre(HasSubstr("damaged where")));
-  EXPECT_THAT(reads(with_entities(step, "#9006 = PRODUCT 'x');\n")), ElementsAre(HasSubstr("damaged where")));
+              ElementsAre(HasSubstr("the solid is not built on")));
+  EXPECT_THAT(reads(with_entities(step, "#9006 = PRODUCT 'x');\n")), ElementsAre(HasSubstr("the solid is not built on")));
 }
 
 TEST(Files, FaultsOfTheSolidAreRefused) {
@@ -240,6 +240,55 @@ Ending ending(const std::string& path) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? static_cast<Ending>(WEXITSTATUS(status)) : kOther;
+}
+
+TEST(Files, WhatIsBuiltOnItselfIsRefused) {
+  const std::string plate = shapes::plate_with_hole(10, 8, 2, 1.5);
+  const TestFile step("cycle.step"), iges("cycle.igs");
+  shapes::write_step(plate, step.path());
+  const std::string text = step.read();
+  std::smatch edge, face;
+  ASSERT_TRUE(std::regex_search(text, edge, std::regex("(#[0-9]+) = ORIENTED_EDGE\\('',\\*,\\*,(#[0-9]+)")));
+  ASSERT_TRUE(std::regex_search(text, face, std::regex("(#[0-9]+) = ADVANCED_FACE\\('',\\((#[0-9]+)")));
+  for (const std::smatch* found : {&edge, &face}) {
+    const std::string itself = replaced((*found)[0], (*found)[2].str(), (*found)[1].str());
+    step.write(replaced(text, (*found)[0], itself));
+    ASSERT_EQ(ending(step.path()), kRefusal);
+    EXPECT_THAT(refusal([&] { CadModel::read(step.path()); }), HasSubstr("is built on itself"));
+  }
+  shapes::write_iges(plate, iges.path());
+  std::string lines = iges.read();
+  std::smatch curve;
+  // A composite curve: "102,4,11,13,15,17;" with its own number, and those of its parts.
+  ASSERT_TRUE(std::regex_search(lines, curve, std::regex("102,4,([0-9]+)(,[^;]*; *) ([0-9]+)P")));
+  std::string itself = std::to_string(std::stoi(curve[3]));
+  itself.insert(0, curve[1].str().size() - itself.size(), ' ');
+  lines = replaced(lines, curve[0].str(), "102,4," + itself + curve[2].str() + " " + curve[3].str() + "P");
+  iges.write(lines);
+  ASSERT_EQ(ending(iges.path()), kRefusal);
+  EXPECT_THAT(refusal([&] { CadModel::read(iges.path()); }), HasSubstr("is built on itself"));
+}
+
+TEST(Files, NumbersOutOfRangeAreRefused) {
+  const std::string plate = shapes::plate_with_hole(10, 8, 2, 1.5);
+  const TestFile step("range.step"), iges("range.igs");
+  shapes::write_step(plate, step.path());
+  shapes::write_iges(plate, iges.path());
+  for (const auto& [file, pattern] : {std::pair{&step, "LINE\\([^;]*;\\s*#[0-9]+ = CARTESIAN_POINT\\('',\\(0\\."}, std::pair{&iges, "\n110,0\\."}}) {
+    const std::string text = file->read();
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(text, found, std::regex(pattern)));
+    std::string changed = found[0].str();
+    // In IGES at the cost of the number after it: columns count.
+    changed.replace(changed.size() - 2, 2, "1.E200");
+    file->write(file == &iges ? replaced(text, found[0].str() + text.substr(static_cast<std::size_t>(found.position() + found.length()), 4), changed)
+                              : replaced(text, found[0], changed));
+    ASSERT_EQ(ending(file->path()), kRefusal);
+    EXPECT_THAT(refusal([&] { CadModel::read(file->path()); }), HasSubstr("out of range, 1.E200"));
+  }
+  // Not in a name.
+  step.write(replaced(step_of(plate), "PRODUCT('", "PRODUCT('1.E200 "));
+  EXPECT_EQ(refusal([&] { CadModel::read(step.path()); }), "accepted");
 }
 
 TEST(Files, AnyDamageEndsInAModelOrARefusal) {

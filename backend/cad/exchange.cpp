@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "core/error.h"
@@ -67,15 +68,10 @@ int on_cycle(const Interface_InterfaceModel& model, const Interface_Graph& graph
 }
 
 /// Throws InvalidInput where no double holds the square of a real number in the file: lengths become infinite, and OCCT counts periods up to them for ever.
-void check_reals(const std::string& path, bool quotes) {
-  std::ostringstream buffer;
-  buffer << std::ifstream(path, std::ios::binary).rdbuf();
-  const std::string text = std::move(buffer).str();
+void check_reals(const std::string& path, const std::string& text) {
   const auto digit = [&](std::size_t i) { return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])); };
-  bool quoted = false;
   for (std::size_t i = 1; i < text.size(); ++i) {
-    if (quotes && text[i] == '\'') quoted = !quoted;
-    if (quoted || std::string_view("EeDd").find(text[i]) == std::string_view::npos) continue;
+    if (std::string_view("EeDd").find(text[i]) == std::string_view::npos) continue;
     std::size_t start = i, end = i + 1;
     while (start > 0 && (digit(start - 1) || text[start - 1] == '.')) --start;
     if (end < text.size() && (text[end] == '+' || text[end] == '-')) ++end;
@@ -88,10 +84,53 @@ void check_reals(const std::string& path, bool quotes) {
   }
 }
 
+std::string text_of(const std::string& path) {
+  std::ostringstream buffer;
+  buffer << std::ifstream(path, std::ios::binary).rdbuf();
+  return std::move(buffer).str();
+}
+
+/// A STEP file without its strings and comments.
+std::string statements_of(std::string step) {
+  const auto blank = [&](std::size_t from, std::string_view end) {
+    const std::size_t to = std::min(step.find(end, from + end.size()), step.size() - 1);
+    std::fill(step.begin() + static_cast<std::ptrdiff_t>(from), step.begin() + static_cast<std::ptrdiff_t>(to) + 1, ' ');
+    return to;
+  };
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    if (step[i] == '\'') i = blank(i, "'");
+    if (step.compare(i, 2, "/*") == 0) i = blank(i, "*/");
+  }
+  return step;
+}
+
+/// Throws InvalidInput where two entities of a STEP file have one number: OCCT then walks through lists that it has not filled.
+void check_numbers(const std::string& path, const std::string& statements) {
+  std::unordered_set<unsigned long long> seen;
+  for (std::size_t i = statements.find('#'); i != std::string::npos; i = statements.find('#', i + 1)) {
+    char* end = nullptr;
+    const unsigned long long number = std::strtoull(statements.c_str() + i + 1, &end, 10);
+    while (*end == ' ' || *end == '\t' || *end == '\r' || *end == '\n') ++end;
+    if (*end == '=' && !seen.insert(number).second) throw InvalidInput(path + ": the STEP file is damaged: there are two entities #" + std::to_string(number));
+  }
+}
+
+/// What an IGES file says of its entities: the first 64 columns of the lines that have a P in column 73.
+std::string parameters_of(const std::string& iges) {
+  std::istringstream lines(iges);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() > 72 && line[72] == 'P') result += line.substr(0, 64) + "\n";
+  }
+  return result;
+}
+
 }  // namespace
 
 bool load_entities(const opencascade::handle<XSControl_WorkSession>& session, const std::string& path, std::istream* stream) {
-  check_reals(path, stream != nullptr);
+  const std::string text = stream ? statements_of(text_of(path)) : parameters_of(text_of(path));
+  check_reals(path, text);
+  if (stream) check_numbers(path, text);
   opencascade::handle<Interface_InterfaceModel> model;
   const opencascade::handle<IFSelect_WorkLibrary>& library = session->WorkLibrary();
   const int status = stream ? library->ReadStream(path.c_str(), *stream, model, session->Protocol()) : library->ReadFile(path.c_str(), model, session->Protocol());

@@ -8,7 +8,7 @@
 namespace polycube {
 
 /// Parses the file (STEP from `stream` if that is given) into the session, ready for transfer. False where OCCT cannot. Throws InvalidInput for what OCCT's
-/// own check and transfer would not survive: geometry that is built on itself, numbers whose squares no double holds.
+/// own check and transfer would not survive: geometry that is built on itself, entities of one number, real numbers whose squares no double holds.
 bool load_entities(const opencascade::handle<XSControl_WorkSession>& session, const std::string& path, std::istream* stream = nullptr);
 
 }  // namespace polycube

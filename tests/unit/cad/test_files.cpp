@@ -269,6 +269,13 @@ TEST(Files, WhatIsBuiltOnItselfIsRefused) {
   EXPECT_THAT(refusal([&] { CadModel::read(iges.path()); }), HasSubstr("is built on itself"));
 }
 
+TEST(Files, TwoEntitiesOfOneNumberAreRefused) {
+  const std::string step = step_of(shapes::box(1, 2, 3)), again = "#7 = DIRECTION('',(0.,0.,1.));\n";
+  EXPECT_THAT(refusal_of_step(with_entities(step, again)), HasSubstr("two entities #7"));
+  EXPECT_THAT(refusal_of_step(with_entities(step, "/* " + again + " */")), "accepted");
+  EXPECT_THAT(refusal_of_step(replaced(step, "PRODUCT('", "PRODUCT('#7 = 7 ")), "accepted");
+}
+
 TEST(Files, NumbersOutOfRangeAreRefused) {
   const std::string plate = shapes::plate_with_hole(10, 8, 2, 1.5);
   const TestFile step("range.step"), iges("range.igs");

@@ -18,13 +18,14 @@
 
 namespace polycube {
 
-/// OCCT's readers keep settings and tables in globals, and some of them talk on std::cout: one at a time, in silence.
-class ReaderGuard {
- public:
-  ReaderGuard() : lock_(mutex()), output_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
-  ~ReaderGuard() { std::cout.rdbuf(output_); }
-  ReaderGuard(const ReaderGuard&) = delete;
-  ReaderGuard& operator=(const ReaderGuard&) = delete;
+/// The base of guards of which only one of each kind may live at a time.
+template <class Guard>
+class OneAtATime {
+ protected:
+  OneAtATime() : lock_(mutex()) {}
+  OneAtATime(const OneAtATime&) = delete;
+  OneAtATime& operator=(const OneAtATime&) = delete;
+  ~OneAtATime() = default;
 
  private:
   static std::mutex& mutex() {
@@ -32,13 +33,22 @@ class ReaderGuard {
     return instance;
   }
   std::lock_guard<std::mutex> lock_;
+};
+
+/// OCCT's readers keep settings and tables in globals, and some of them talk on std::cout: one at a time, in silence.
+class ReaderGuard : OneAtATime<ReaderGuard> {
+ public:
+  ReaderGuard() : output_(std::cout.rdbuf(nullptr)) { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer)); }
+  ~ReaderGuard() { std::cout.rdbuf(output_); }
+
+ private:
   std::streambuf* output_;
 };
 
 /// While it lives OCCT jumps from a segmentation fault of its own to the nearest OCC_CATCH_SIGNALS. The process' own handlers come back afterwards.
-class SignalGuard {
+class SignalGuard : OneAtATime<SignalGuard> {
  public:
-  SignalGuard() : lock_(mutex()) {
+  SignalGuard() {
     for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], nullptr, &before_[i]);
     OSD::SetSignal(Standard_False);
     // Interrupts stay with whoever handles them.
@@ -47,15 +57,8 @@ class SignalGuard {
   ~SignalGuard() {
     for (std::size_t i = 0; i < kFaults; ++i) sigaction(kSignals[i], &before_[i], nullptr);
   }
-  SignalGuard(const SignalGuard&) = delete;
-  SignalGuard& operator=(const SignalGuard&) = delete;
 
  private:
-  static std::mutex& mutex() {
-    static std::mutex instance;
-    return instance;
-  }
-  std::lock_guard<std::mutex> lock_;
   static constexpr std::size_t kFaults = 5;
   static constexpr std::array<int, 9> kSignals{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGHUP, SIGINT, SIGQUIT, SIGTERM};
   std::array<struct sigaction, 9> before_{};

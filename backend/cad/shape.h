@@ -71,6 +71,9 @@ struct EdgeGeometry {
   std::vector<EdgeUse> uses;
 };
 
+/// OCCT's kind of shape by the dimension of an entity.
+inline constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE};
+
 /// Numbers of the vertices, edges and faces (by dimension) of a solid, in the order of TopExp::MapShapes on it.
 using Numbering = std::array<std::vector<int>, 3>;
 

@@ -31,7 +31,6 @@ namespace {
 
 // Largest and smallest size of a part that double precision and OCCT's absolute confusion of 1e-7 mm leave room for.
 constexpr double kLargest = 1e8, kSmallest = 1e-4;
-constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE};
 
 int count(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind, TopAbs_ShapeEnum avoid = TopAbs_SHAPE) {
   TopTools_IndexedMapOfShape map;

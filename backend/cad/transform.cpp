@@ -16,8 +16,6 @@
 namespace polycube {
 namespace {
 
-constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_EDGE, TopAbs_FACE};
-
 // Rounds the real numbers of a BREP text; whole numbers (counts, references) and words stay.
 std::string on_grid(const std::string& text, double grid) {
   std::string result;

@@ -1,3 +1,4 @@
+// Folders for files that only one run needs.
 #pragma once
 
 #include <filesystem>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <thread>
 
 #include "core/error.h"
 #include "core/hexahedron.h"
@@ -66,8 +65,7 @@ struct Group {
 class Curving {
  public:
   Curving(const CadModel& model, FemMesh& mesh, const FemOptions& options, const Monitor& monitor)
-      : model_(model), mesh_(mesh), monitor_(monitor), base_(mesh.corner_count), edges_(mesh.hexes), supports_(edges_.size()) {
-    threads_ = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+      : model_(model), mesh_(mesh), monitor_(monitor), threads_(thread_count(options.threads)), base_(mesh.corner_count), edges_(mesh.hexes), supports_(edges_.size()) {
   }
 
   void run() {
@@ -118,7 +116,7 @@ class Curving {
   const CadModel& model_;
   FemMesh& mesh_;
   const Monitor& monitor_;
-  int threads_ = 1;
+  int threads_;
   int base_;
   EdgeList edges_;
   std::vector<Support> supports_;  // of each edge

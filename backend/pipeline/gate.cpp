@@ -29,7 +29,7 @@ bool is_faulty(const CadModel& model, const HexMesh& mesh, const Hex& hex) {
   return c != d || !(scaled_jacobian(mesh.points, hex) > 0);
 }
 
-void gate(const CadModel& model, const PaddedMesh& padded, const MeshOptions& options, const Monitor& monitor) {
+void gate(const CadModel& model, const PaddedMesh& padded, int threads, const Monitor& monitor) {
   const QualitySummary q = summarise(padded.mesh);
   if (padded.mesh.hexes.empty() || q.inverted > 0 || !(q.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells without positive Jacobian");
   // CAD vertices that all but coincide cannot each have a node of its own.
@@ -51,8 +51,8 @@ void gate(const CadModel& model, const PaddedMesh& padded, const MeshOptions& op
   }
   const int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(padded.association.quads.size());
   if (euler != model.euler_characteristic()) throw StageFailed("hex", "the mesh has another topology than the solid");
-  // Solvers look at integration points too; an element that cannot be made there is no better than an inverted one.
-  build_fem_mesh(model, padded.mesh, padded.association, {options.order, options.threads}, monitor);
+  // Solvers look at integration points too; an element that cannot be made there is no better than an inverted one. Where the straight one can, so can that of second order.
+  build_fem_mesh(model, padded.mesh, padded.association, {.order = 1, .threads = threads}, monitor);
 }
 
 }  // namespace polycube

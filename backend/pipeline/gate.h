@@ -3,7 +3,6 @@
 
 #include "cad/cad.h"
 #include "core/monitor.h"
-#include "core/options.h"
 #include "pad/pad.h"
 
 namespace polycube {
@@ -12,6 +11,7 @@ namespace polycube {
 bool is_faulty(const CadModel& model, const HexMesh& mesh, const Hex& hex);
 
 /// Nothing passes that is not a conforming mesh of positive cells with the surface of the solid, of which solvers' elements can be made. Throws StageFailed.
-void gate(const CadModel& model, const PaddedMesh& padded, const MeshOptions& options, const Monitor& monitor);
+/// `threads` as in MeshOptions.
+void gate(const CadModel& model, const PaddedMesh& padded, int threads, const Monitor& monitor);
 
 }  // namespace polycube

@@ -42,6 +42,7 @@
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <vector>
 
 namespace polycube::shapes {
 namespace {
@@ -86,6 +87,20 @@ TopoDS_Shell five_faces(double size) {
   int count = 0;
   for (TopExp_Explorer it(cube, TopAbs_FACE); it.More() && count < 5; it.Next(), ++count) builder.Add(shell, it.Current());
   return shell;
+}
+
+TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& parts) {
+  TopoDS_Compound result;
+  const BRep_Builder builder;
+  builder.MakeCompound(result);
+  for (const TopoDS_Shape& part : parts) builder.Add(result, part);
+  return result;
+}
+
+TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  return faces;
 }
 
 }  // namespace
@@ -297,39 +312,23 @@ std::string loosened(const std::string& brep, double tolerance) {
 }
 
 std::string compound(const std::string& a, const std::string& b) {
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  builder.Add(result, parse(a));
-  builder.Add(result, parse(b));
-  return text(result);
+  return text(compound_of({parse(a), parse(b)}));
 }
 
 std::string face_and_solid(const std::string& brep, int face) {
   const TopoDS_Shape whole = parse(brep);
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(whole, TopAbs_FACE, faces);
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
-  builder.Add(result, faces(face).Reversed());
-  builder.Add(result, whole);
-  return text(result);
+  return text(compound_of({faces_of(whole)(face).Reversed(), whole}));
 }
 
 std::string taken_apart(const std::string& brep, double gap) {
-  const TopoDS_Shape whole = parse(brep);
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(whole, TopAbs_FACE, faces);
-  TopoDS_Compound result;
-  const BRep_Builder builder;
-  builder.MakeCompound(result);
+  const TopTools_IndexedMapOfShape faces = faces_of(parse(brep));
+  std::vector<TopoDS_Shape> parts;
   for (int i = 1; i <= faces.Extent(); ++i) {
     gp_Trsf motion;
     if (i == faces.Extent()) motion.SetTranslation({0, 0, gap});
-    builder.Add(result, BRepBuilderAPI_Transform(faces(i), motion, true).Shape());
+    parts.push_back(BRepBuilderAPI_Transform(faces(i), motion, true).Shape());
   }
-  return text(result);
+  return text(compound_of(parts));
 }
 
 void write_step(const std::string& brep, const std::string& path, const std::string& unit) {

@@ -25,8 +25,6 @@
 namespace polycube {
 namespace {
 
-// Good enough to fit no other way of padding.
-constexpr double kGoodScaledJacobian = 0.2;
 // Times that edges are given up for one draft, around its inverted cells in widening rings.
 constexpr int kSurrenderRounds = 5, kSurrenderRings = 4;
 // A size above this share of the diagonal may be too coarse for the edges of the part: then the first of these factors on the number of cells
@@ -57,9 +55,6 @@ Score score_of(double least, const Mesh& m) {
   return {static_cast<int>(m.association.lost_edges.size()), static_cast<int>(m.association.lost_vertices.size()), least, free_scaled_jacobian(m.mesh, m.association)};
 }
 
-// Cells in a narrow corner of the CAD are what they are; another way of padding would have the same.
-bool good_cells(const Score& s) { return s.least >= kGoodScaledJacobian || (s.least >= kGoodScaledJacobian / 2 && s.free_least >= kGoodScaledJacobian); }
-
 StageFailed inverted(const FitReport& fitted) {
   std::vector<CadRef> faces;
   for (int f : fitted.bad_faces) faces.push_back({2, f});
@@ -69,7 +64,7 @@ StageFailed inverted(const FitReport& fitted) {
 }  // namespace
 
 /// A mesh on the way: what plans that surrender edges start from.
-struct Evaluator::Draft {
+struct Evaluator::Draft : Made {
   Plan plan;
   const Structure* structure = nullptr;
   HexComplex complex;
@@ -80,6 +75,8 @@ struct Evaluator::Draft {
   FitReport fitted;
   int padded_hexes = 0;  // that padding added
 };
+
+const Evaluator::Draft& Evaluator::draft_in(const Outcome& outcome) { return static_cast<const Draft&>(*outcome.made); }
 
 /// One evaluation, with the fits it may take.
 class Evaluator::Work {
@@ -97,7 +94,8 @@ class Evaluator::Work {
   // A mesh that misses an edge is worth more than none.
   Outcome surrendered(Draft draft, Surrender how) {
     const int rounds = how == Surrender::kEdges ? kSurrenderRounds : kSurrenderRings;
-    Outcome outcome = closed(draft);
+    Outcome outcome;
+    outcome.failure = Failure{StageFailed("fit", "cells stay inverted, and no CAD edge is left to give up there"), {}};
     for (int round = 0; round < rounds && fits_left_ > 0; ++round) {
       if (how == Surrender::kAround) {
         give_up_around(model_, draft.padded, round, draft.options, monitor_);
@@ -126,8 +124,8 @@ class Evaluator::Work {
     } else {
       try {
         const auto start = Monitor::Clock::now();
-        gate(model_, draft.padded, options_, monitor_);
-        own_.seconds_to_finish_ = std::chrono::duration<double>(Monitor::Clock::now() - start).count();
+        gate(model_, draft.padded, options_.threads, monitor_);
+        own_.gate_seconds_ = std::chrono::duration<double>(Monitor::Clock::now() - start).count();
         outcome.kind = Outcome::Kind::kMesh;
         outcome.score = score_of(draft.fitted.min_scaled_jacobian, draft.padded);
         outcome.score->least = summarise(draft.padded.mesh).min_scaled_jacobian;
@@ -135,19 +133,19 @@ class Evaluator::Work {
         outcome.failure = Failure{e, {}};
       }
     }
-    outcome.draft = std::make_shared<const Draft>(std::move(draft));
+    outcome.made = std::make_shared<const Draft>(std::move(draft));
     return outcome;
   }
 
   // Padding can add cells to a division that has a maximum: fewer are asked for then.
   void retry_padded(const Plan& plan, Outcome& outcome) {
-    const PaddedMesh& padded = static_cast<const Draft*>(outcome.draft.get())->padded;
+    const PaddedMesh& padded = draft_in(outcome).padded;
     const auto unmet = [&](const PaddedMesh& m) { return unmet_divisions(m.mesh, m.association, options_.divisions).size(); };
     const Divisions fewer = allow_for_padding(padded.mesh, padded.association, options_.divisions);
     if (fewer == options_.divisions || fits_left_ <= 0) return;
     try {
       Outcome again = closed(fitted(plan, fewer));
-      if (again.kind == Outcome::Kind::kMesh && unmet(static_cast<const Draft*>(again.draft.get())->padded) < unmet(padded)) outcome = std::move(again);
+      if (again.kind == Outcome::Kind::kMesh && unmet(draft_in(again).padded) < unmet(padded)) outcome = std::move(again);
     } catch (const StageFailed& e) {
       monitor_.log("with fewer divisions: " + e.stage() + ": " + e.what());
     } catch (const InvalidInput& e) {
@@ -327,8 +325,8 @@ Evaluator::~Evaluator() = default;
 
 std::vector<LabelVariant> Evaluator::label_order() { return structures_.label_order(); }
 
-Outcome Evaluator::evaluate(const Plan& plan, const std::shared_ptr<const void>& from, int fits) {
-  if (plan.surrender != Surrender::kNothing) return Work(*this, fits).surrendered(*static_cast<const Draft*>(from.get()), plan.surrender);
+Outcome Evaluator::evaluate(const Plan& plan, const Made* from, int fits) {
+  if (plan.surrender != Surrender::kNothing) return Work(*this, fits).surrendered(static_cast<const Draft&>(*from), plan.surrender);
   Outcome skipped;
   skipped.kind = Outcome::Kind::kPostponed;
   if (plan.may_wait && structures_.doubtful(plan.structure)) return skipped;
@@ -338,7 +336,7 @@ Outcome Evaluator::evaluate(const Plan& plan, const std::shared_ptr<const void>&
 }
 
 MeshResult Evaluator::result(const Outcome& outcome) const {
-  const Draft& draft = *static_cast<const Draft*>(outcome.draft.get());
+  const Draft& draft = draft_in(outcome);
   const Structure& s = *draft.structure;
   const Quantization& q = draft.quantization;
   MeshResult result;

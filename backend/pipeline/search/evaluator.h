@@ -8,6 +8,7 @@
 
 namespace polycube {
 
+/// The real stages behind Evaluate (search.h). Keeps what plans share: tetrahedra, labels, maps and blocks, each made when a plan first asks for it.
 class Evaluator {
  public:
   /// Works in the pose; `options` are those of the pose too. Keeps references to pose, options and monitor.
@@ -19,15 +20,16 @@ class Evaluator {
   /// Best first. Throws InvalidInput and what making tetrahedra throws, StageFailed aside.
   std::vector<LabelVariant> label_order();
   /// As Evaluate (search.h) says; throws what the stages throw.
-  Outcome evaluate(const Plan& plan, const std::shared_ptr<const void>& from, int fits);
+  Outcome evaluate(const Plan& plan, const Made* from, int fits);
   /// The mesh of an outcome with a score; its report lacks what depends on the part's place, and the warnings of the search.
   MeshResult result(const Outcome& outcome) const;
-  /// Seconds that the last mesh took from its nodes to its elements: what handing it out will take again.
-  double seconds_to_finish() const { return seconds_to_finish_; }
+  /// Seconds that the gate took with the last mesh.
+  double gate_seconds() const { return gate_seconds_; }
 
  private:
   class Work;
   struct Draft;
+  static const Draft& draft_in(const Outcome& outcome);
 
   const Pose& pose_;
   const CadModel& model_;
@@ -38,7 +40,7 @@ class Evaluator {
   int threads_;
   StageClock clock_;
   Structures structures_;
-  double seconds_to_finish_ = 0;
+  double gate_seconds_ = 0;
 };
 
 }  // namespace polycube

@@ -1,6 +1,7 @@
 #include "pipeline/search/give_up.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -14,9 +15,8 @@ namespace {
 
 // CAD edges whose faces meet within 30 degrees of smooth are given up first.
 constexpr double kSmoothBend = std::numbers::pi / 6;
-// A bend that no CAD edge reaches, radians.
-constexpr double kNoEdge = 4;
 
+// Of the edges that bend less than `limit` and are not `kept` (per CAD edge; empty for none), those with most nodes of faulty cells.
 bool drop(const CadModel& model, const PaddedMesh& padded, const std::vector<char>& kept, double limit, int count, AssociateOptions& options,
           const Monitor& monitor) {
   std::vector<std::set<int>> edges_at(padded.mesh.points.size());
@@ -51,7 +51,7 @@ bool give_up_edges(const CadModel& model, const FaceList& keep_faces, const Padd
     for (int f : model.edge(e).faces) kept[e] |= std::find(keep_faces.begin(), keep_faces.end(), f) != keep_faces.end();
   }
   return drop(model, padded, kept, kSmoothBend, count, options, monitor) || drop(model, padded, kept, std::numbers::pi, count, options, monitor) ||
-         drop(model, padded, {}, kNoEdge, count, options, monitor);
+         drop(model, padded, {}, std::numeric_limits<double>::infinity(), count, options, monitor);
 }
 
 void give_up_around(const CadModel& model, const PaddedMesh& padded, int rings, AssociateOptions& options, const Monitor& monitor) {

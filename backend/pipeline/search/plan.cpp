@@ -1,6 +1,7 @@
 #include "pipeline/search/plan.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace polycube {
@@ -16,8 +17,8 @@ constexpr double kFinerGrid = 1.25;
 constexpr double kOtherTets = 0.8;
 // Edges that bend less are left out by the plan that keeps sharp ones only.
 constexpr double kSharpBend = std::numbers::pi / 18;
-// A bend that no CAD edge reaches, radians.
-constexpr double kNoEdge = 4;
+// No CAD edge is as sharp.
+constexpr double kNoEdge = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

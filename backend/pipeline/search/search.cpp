@@ -9,7 +9,7 @@
 namespace polycube {
 namespace {
 
-// Good enough to stop looking for a better mesh (measured on the example parts: above it the rounds of the fit that follow bring little).
+// Good enough to stop looking for a better mesh, and half of it after some patience (guess).
 constexpr double kGoodScaledJacobian = 0.2;
 // A worst cell below counts as half a CAD edge.
 constexpr double kPoorScaledJacobian = 0.05;
@@ -39,7 +39,7 @@ bool has_surrendered(const std::vector<Attempt>& done, int of, Surrender how) {
   return std::any_of(done.begin(), done.end(), [&](const Attempt& a) { return a.plan.of == of && a.plan.surrender == how; });
 }
 
-bool has_draft(const Attempt& a) { return a.outcome.kind == Outcome::Kind::kFailed && a.outcome.draft != nullptr; }
+bool has_draft(const Attempt& a) { return a.outcome.kind == Outcome::Kind::kFailed && a.outcome.made != nullptr; }
 
 Plan surrender(const std::vector<Attempt>& done, int of, Surrender how) {
   Plan plan = done[of].plan;
@@ -57,16 +57,16 @@ bool without_tets(const std::vector<Attempt>& done, const Plan& plan) {
 }
 
 // The latest draft that came from the attempt.
-std::shared_ptr<const void> draft_of(const std::vector<Attempt>& done, int attempt) {
+const Made* draft_of(const std::vector<Attempt>& done, int attempt) {
   if (attempt < 0) return nullptr;
-  std::shared_ptr<const void> draft = done[attempt].outcome.draft;
+  const Made* draft = done[attempt].outcome.made.get();
   for (const Attempt& a : done) {
-    if (a.plan.of == attempt && a.outcome.draft) draft = a.outcome.draft;
+    if (a.plan.of == attempt && a.outcome.made) draft = a.outcome.made.get();
   }
   return draft;
 }
 
-Outcome guarded(const Evaluate& evaluate, const Plan& plan, const std::shared_ptr<const void>& from, int fits) {
+Outcome guarded(const Evaluate& evaluate, const Plan& plan, const Made* from, int fits) {
   Outcome outcome;
   try {
     return evaluate(plan, from, fits);
@@ -106,9 +106,13 @@ bool better(const Score& a, const Score& b) {
   return worth(a) > worth(b);
 }
 
+bool good_cells(const Score& score) {
+  return score.least >= kGoodScaledJacobian || (score.least >= kGoodScaledJacobian / 2 && score.free_least >= kGoodScaledJacobian);
+}
+
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {
-  const double enough = fits_done < budget.patience ? kGoodScaledJacobian : kGoodScaledJacobian / 2;
-  return score.complete() && (score.least >= enough || (score.least >= kGoodScaledJacobian / 2 && score.free_least >= kGoodScaledJacobian));
+  const bool patient = fits_done >= budget.patience && score.least >= kGoodScaledJacobian / 2;
+  return score.complete() && (patient || good_cells(score));
 }
 
 Budget budget_of(const std::string& effort) {

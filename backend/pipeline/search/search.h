@@ -19,6 +19,9 @@ struct Score {
   bool complete() const { return lost_edges == 0 && lost_vertices == 0; }
 };
 
+/// Whether the cells are good, but for those that the CAD holds where they are.
+bool good_cells(const Score& score);
+
 /// More captured edges first (a worst cell below .05 counts as half an edge), then the better worst cell.
 bool better(const Score& a, const Score& b);
 
@@ -28,6 +31,10 @@ struct Failure {
   std::optional<InvalidInput> input;  ///< the options demand what this plan cannot give
 };
 
+/// What a plan has made, finished or not, for those that go on from it. The evaluator alone knows what is inside.
+struct Made {
+  virtual ~Made() = default;
+};
 
 /// What became of a plan.
 struct Outcome {
@@ -40,7 +47,7 @@ struct Outcome {
   Kind kind = Kind::kFailed;
   std::optional<Score> score;    ///< of a mesh
   std::optional<Failure> failure;
-  std::shared_ptr<const void> draft;  ///< what a plan that surrenders edges may start from, or the mesh itself; the evaluator alone knows what it is
+  std::shared_ptr<const Made> made;  ///< the mesh, or the draft that a plan that surrenders edges may start from; null where it came to neither
   int faults = 0;                ///< of a draft that is no mesh: inverted cells and lost edges
   int fits = 0;                  ///< that it took
 };
@@ -61,8 +68,9 @@ struct Budget {
 /// The budget of an effort: quick, normal or thorough.
 Budget budget_of(const std::string& effort);
 
-/// Tries one plan with at most so many fits; `from`: the draft that a surrender starts from. No side effect that another plan could see. Throws Cancelled alone.
-using Evaluate = std::function<Outcome(const Plan&, const std::shared_ptr<const void>& from, int fits)>;
+/// Tries one plan with at most so many fits; `from`: the draft that a surrender starts from. No side effect that another plan could see. What it throws fails its
+/// plan alone, Cancelled aside.
+using Evaluate = std::function<Outcome(const Plan&, const Made* from, int fits)>;
 
 /// The plans in order, as far as they are needed: those that keep all CAD edges; then, while there is no mesh, surrender in the draft with fewest faults
 /// first, then around its inverted cells, then the last plans. Pure: what is next depends on what was done alone.

@@ -16,44 +16,18 @@
 
 #include "cad/cad.h"
 #include "core/error.h"
+#include "support/files.h"
 #include "support/shapes.h"
 
 namespace polycube {
 namespace {
 
 using std::numbers::pi;
+using files::refusal;
+using files::TestFile;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-/// A file that goes with the test.
-class TestFile {
- public:
-  explicit TestFile(const std::string& name) : path_(std::filesystem::path(::testing::TempDir()) / (std::to_string(getpid()) + "-" + name)) {}
-  TestFile(const std::string& name, const std::string& content) : TestFile(name) { write(content); }
-  ~TestFile() { std::filesystem::remove(path_); }
-  TestFile(const TestFile&) = delete;
-  TestFile& operator=(const TestFile&) = delete;
-  std::string path() const { return path_.string(); }
-  void write(const std::string& content) const { std::ofstream(path_, std::ios::binary) << content; }
-  std::string read() const {
-    std::ostringstream text;
-    text << std::ifstream(path_, std::ios::binary).rdbuf();
-    return text.str();
-  }
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);

@@ -10,38 +10,22 @@
 
 #include "cad/cad.h"
 #include "core/error.h"
+#include "support/files.h"
 #include "support/shapes.h"
 
 namespace polycube {
 namespace {
 
 using std::numbers::pi;
+using files::refusal;
+using files::TestFile;
 using ::testing::HasSubstr;
 
 CadModel model(const std::string& brep) { return CadModel::from_brep(brep); }
 
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 std::string refusal_of_brep(const std::string& brep) {
   return refusal([&] { model(brep); });
 }
-
-class File {
- public:
-  File(const std::string& name, const std::string& content) : path_(std::filesystem::path(::testing::TempDir()) / name) { std::ofstream(path_) << content; }
-  ~File() { std::filesystem::remove(path_); }
-  std::string path() const { return path_.string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 TEST(Read, CountsAndMeasuresPrimitives) {
   const CadModel box = model(shapes::box(1, 2, 3));
@@ -218,10 +202,10 @@ TEST(Read, RefusesDamagedText) {
 
 TEST(Read, Files) {
   EXPECT_THAT(refusal([] { CadModel::read("/nowhere/part.step"); }), HasSubstr("no such file"));
-  const File empty("empty.step", ""), text("text.step", "Dear Sir,\nthis is a letter.\n"), brep("box.brep", shapes::box(1, 2, 3)), odd("box.stl", shapes::box(1, 2, 3)),
+  const TestFile empty("empty.step", ""), text("text.step", "Dear Sir,\nthis is a letter.\n"), brep("box.brep", shapes::box(1, 2, 3)), odd("box.stl", shapes::box(1, 2, 3)),
       header("header.stp", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), bad("text.brep", "Dear Sir,\n");
   EXPECT_THAT(refusal([&] { CadModel::read(empty.path()); }), HasSubstr("empty"));
-  for (const File* file : {&text, &odd, &header, &bad}) {
+  for (const TestFile* file : {&text, &odd, &header, &bad}) {
     const std::string line = refusal([&] { CadModel::read(file->path()); });
     EXPECT_NE(line, "accepted");
     EXPECT_EQ(line.find('\n'), std::string::npos);

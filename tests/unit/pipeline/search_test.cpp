@@ -10,12 +10,17 @@ namespace {
 
 using Kind = Outcome::Kind;
 
+struct Numbered : Made {
+  explicit Numbered(int n) : number(n) {}
+  int number;
+};
+
 Outcome mesh(Score score, int fits = 1) {
   Outcome o;
   o.kind = Kind::kMesh;
   o.score = score;
   o.fits = fits;
-  o.draft = std::make_shared<const int>(0);
+  o.made = std::make_shared<const Numbered>(0);
   return o;
 }
 
@@ -36,7 +41,7 @@ Outcome inverted(int faults, int number, int fits = 1) {
   Outcome o = failed("fit", std::to_string(faults) + " cells stay inverted", {{2, number}});
   o.faults = faults;
   o.fits = fits;
-  o.draft = std::make_shared<const int>(number);
+  o.made = std::make_shared<const Numbered>(number);
   return o;
 }
 
@@ -53,11 +58,11 @@ struct Stages {
   std::vector<std::string> asked{};
   std::map<std::string, int> fits{}, from{};
 
-  Outcome operator()(const Plan& plan, const std::shared_ptr<const void>& draft, int allowed) {
+  Outcome operator()(const Plan& plan, const Made* draft, int allowed) {
     const std::string key = plan.name + (plan.may_wait || plan.surrender != Surrender::kNothing || plan.last ? "" : " again");
     asked.push_back(key);
     fits[key] = allowed;
-    if (draft) from[key] = *static_cast<const int*>(draft.get());
+    if (draft) from[key] = static_cast<const Numbered*>(draft)->number;
     if (const auto deed = deeds.find(key); deed != deeds.end()) deed->second();
     const auto found = outcomes.find(key);
     return found != outcomes.end() ? found->second : failed("deform");
@@ -74,7 +79,7 @@ struct Search {
   Stages stages{};
 
   Found run() {
-    return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const std::shared_ptr<const void>& d, int f) { return stages(p, d, f); }, monitor);
+    return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor);
   }
   /// The failure that it ends in.
   StageFailed failure() {

@@ -12,11 +12,9 @@ import sys
 import tempfile
 
 from families import FAMILIES, HARD
-from families.registry import Draw
+from families.registry import QUICK_CHECK, Draw
 from families.tools import FreeCAD, Part, Unsuitable
 
-# Their sweeps and lofts take minutes to be checked for meeting themselves, and OpenCASCADE cuts them a little beyond its own tolerance.
-QUICK = {"thread", "impeller"}
 ATTEMPTS = 60  # a family whose draws fail so often is wrong
 STAMP = (re.compile(r"'\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d'"), "'2000-01-01T00:00:00'"), (re.compile(r"translator ([\d.]+) \d+"), r"translator \1")
 
@@ -73,7 +71,7 @@ def draw_part(name, index, seed, attempt):
         shape = {**FAMILIES, **HARD}[name](draw)
     except (Unsuitable, Part.OCCError, ValueError) as error:
         return str(error).strip()
-    reason = fault(shape, name in QUICK)
+    reason = fault(shape, name in QUICK_CHECK)
     if reason:
         return reason
     solid = shape.Solids[0].copy()

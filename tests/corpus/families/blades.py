@@ -20,7 +20,7 @@ def _blade(inner, outer, bottom, top, twist, thickness, sections=5):
     return Part.makeLoft(wires, True, False)
 
 
-@hard
+@hard(quick_check=True)  # OpenCASCADE searches its lofts for faces that meet for minutes, and cuts them a little beyond its own tolerance
 def impeller(draw):
     """Twisted blades on a conical hub with a back plate and a bore, trimmed to a conical shroud."""
     radius, eye, height = draw.length(38, 50), draw.length(20, 26), draw.length(24, 34)

@@ -21,7 +21,7 @@ def crankshaft(draw):
         length = journal if k + 1 < throws else 30
         pieces.append(cylinder(main, length, (0, 0, z)))
         z += length
-    body = union(pieces[0], *pieces[1:])
+    body = union(*pieces)
     if draw.chance():
         body = cut(body, cylinder(0.3 * main, 12, (0, 0, -25)))
     return body
@@ -58,10 +58,9 @@ def yoke(draw):
     bottom = rise - span / 2 - cheek
     body = union(fork, *arms, *eyes, cylinder(hub, length, (0, 0, bottom + 0.6 * cheek), -Z))
     if draw.chance(0.6):
-        body = fillet(body, draw.length(1, 2), lambda edge: isinstance(edge.Curve, Part.Line) and abs(abs(edge.Curve.Direction.y)) < 1e-9 and
-                      edge.BoundBox.ZMin > bottom + cheek and is_upright(edge))
+        body = fillet(body, draw.length(1, 2), lambda edge: edge.BoundBox.ZMin > bottom + cheek and is_upright(edge))
     body = cut(body, cylinder(0.6 * eye, 4 * span, (-2 * span, 0, rise + 0.5 * eye - 0.5), X))
-    return cut(body, cylinder(bore, length, (0, 0, bottom + 0.6 * cheek - length)).common(cylinder(bore, 0.8 * length, (0, 0, bottom + 0.6 * cheek - length))))
+    return cut(body, cylinder(bore, 0.8 * length, (0, 0, bottom + 0.6 * cheek - length)))
 
 
 @hard
@@ -78,7 +77,7 @@ def big_bracket(draw):
         y = pitch * (j - (rows - 1) / 2)
         pieces.append(slab(width - pitch, rib, plate + 0.55 * height, 0, y))
     pieces.append(block(12, depth, plate + 2.5 * height, (width / 2 - 1, -depth / 2, 0)))
-    body = union(pieces[0], *pieces[1:])
+    body = union(*pieces)
     body = fillet(body, radius)
     bores = [cylinder(0.5 * boss, 60, (x, y, -30)) for x, y in places]
     sinks = [cylinder(0.7 * boss, 60, (x, y, plate + height - 3)) for x, y in places]

@@ -1,9 +1,11 @@
 """What a family of parts is: a function of a Draw, entered under its name by @family or @hard."""
 
+import functools
 import random
 
 FAMILIES = {}  # name -> function of a Draw, as a rule parts that a workshop makes every day
 HARD = {}      # likewise: parts of the kinds on which hexahedral meshers are known to fail
+QUICK_CHECK = set()  # names of those whose faces are not searched for meeting one another
 
 
 def family(function):
@@ -11,8 +13,12 @@ def family(function):
     return function
 
 
-def hard(function):
+def hard(function=None, *, quick_check=False):
+    if function is None:
+        return functools.partial(hard, quick_check=quick_check)
     HARD[function.__name__] = function
+    if quick_check:
+        QUICK_CHECK.add(function.__name__)
     return function
 
 

@@ -76,7 +76,7 @@ def helical(profile, pitch, height, radius, cone_angle=0.0):
     return solid
 
 
-@hard
+@hard(quick_check=True)  # OpenCASCADE searches its sweep for faces that meet for minutes, and cuts by it a little beyond its own tolerance
 def thread(draw):
     """A rod with a thread of three to nine turns, cut by a profile swept along a helix; run out in the open at both ends, or ending in the rod."""
     radius, pitch, turns = draw.length(8, 14), draw.length(2.5, 4), draw.count(5, 9)
@@ -116,7 +116,7 @@ def hose_nipple(draw):
     bore = radius * draw.real(0.5, 0.65)
     barbs, pitch, rise = draw.count(3, 5), draw.length(5, 7), draw.length(1, 1.8)
     across, thickness = 3.2 * radius, draw.length(7, 10)
-    outline, z = [(bore, 0)], thickness + 4
+    z = thickness + 4
     outline = [(bore, 0), (radius, 0), (radius, z)]
     for _ in range(barbs):
         outline += [(radius + rise, z), (radius, z + pitch)]

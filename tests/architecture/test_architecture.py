@@ -157,6 +157,20 @@ class Files(unittest.TestCase):
             if name.endswith(self.SOURCE):
                 self.assertIsNone(pattern.search(read(os.path.join(REPO, name))), name)
 
+    def test_compounds_are_made_by_the_class(self):
+        """Part.makeCompound of FreeCAD 1.0 is a crash in a Python that FreeCAD has not started, Part.Compound is not."""
+        outside = [name for name in tracked() if name.endswith(".py") and not name.startswith(("Mod/", "tests/freecad/"))]
+        for needed in ("tests/python/support.py", "tests/corpus/families/tools.py", "resources/sweep/picture.py"):
+            self.assertIn(needed, outside)
+        for name in outside:
+            self.assertNotIn("Part.make" + "Compound(", read(os.path.join(REPO, name)), name)
+
+    def test_the_solver_is_found_by_everything_that_runs_it(self):
+        """By ccx.find() of resources/examples."""
+        for name in tracked():
+            if name.endswith(".py"):
+                self.assertNotRegex(read(os.path.join(REPO, name)), r"""\[["']ccx["'],""", name)
+
     def test_no_randomness_without_a_seed(self):
         pattern = re.compile(r"\b(random_device|srand|std::rand|time\(nullptr\))")
         for stage in Stages.uses:

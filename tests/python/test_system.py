@@ -31,15 +31,6 @@ class Packages(unittest.TestCase):
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
 
 
-class OutsideFreeCad(unittest.TestCase):
-    def test_compounds_are_made_by_the_class(self):
-        """Part.makeCompound of FreeCAD 1.0 is a crash in a Python that FreeCAD has not started, Part.Compound is not."""
-        for name in os.listdir(os.path.join(REPO, "tests", "python")):
-            if name.endswith(".py"):
-                with open(os.path.join(REPO, "tests", "python", name), encoding="utf-8") as file:
-                    self.assertNotIn("Part.make" + "Compound(", file.read(), name)
-
-
 class Solver(FolderTest):
     def program(self, name):
         with open(self.path(name), "w", encoding="ascii") as file:
@@ -61,13 +52,6 @@ class Solver(FolderTest):
         self.assertIsNone(self.find(POLYCUBE_CCX="", PATH=self.folder))
         there = self.program("ccx")
         self.assertEqual(self.find(POLYCUBE_CCX="", PATH=self.folder), there)
-
-    def test_is_found_by_every_test_that_runs_it(self):
-        for folder, _, names in os.walk(os.path.join(REPO, "tests")):
-            for name in names:
-                if name.endswith(".py"):
-                    with open(os.path.join(folder, name), encoding="utf-8") as file:
-                        self.assertNotRegex(file.read(), r"""\[["']ccx["'],""", name)
 
     def test_demo_without_solver(self):
         """It meshes and draws, says how to name a solver, and ends well."""

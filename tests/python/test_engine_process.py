@@ -20,13 +20,19 @@ class EngineProcess(FolderTest):
         self.temporary = tempfile.mkdtemp(dir=self.folder)
         worker = self.path("worker")
         with open(worker, "w") as file:
-            file.write("#!/bin/sh\n{}\nsleep 60\n".format(deed))
+            file.write("#!/bin/sh\n{}\nwhile kill -0 $PPID 2> {}; do sleep 0.1; done\n".format(deed, os.devnull))
         os.chmod(worker, os.stat(worker).st_mode | stat.S_IXUSR)
         part = self.save(box())
         self.before = set(os.listdir(self.folder))
         environment = dict(os.environ, POLYCUBE_TET_WORKER=worker, TMPDIR=self.temporary)
         command = [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--report", self.path("r.json"), *arguments]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+
+    def wait_for(self, process, name):
+        """Until the deed has made the file."""
+        while not os.path.exists(self.path(name)) and process.poll() is None:
+            time.sleep(0.01)
+        self.assertIsNone(process.poll(), "the program ended by itself")
 
     def ends(self, process, status, line):
         out, error = process.communicate(timeout=60)
@@ -49,18 +55,15 @@ class EngineProcess(FolderTest):
 
     def test_a_second_interrupt_ends_an_engine_that_is_stuck(self):
         process = self.start("kill -STOP $PPID; touch {}".format(self.path("stuck")))
-        while not os.path.exists(self.path("stuck")):
-            time.sleep(0.01)
+        self.wait_for(process, "stuck")
         os.remove(self.path("stuck"))
         process.send_signal(signal.SIGINT)
-        time.sleep(0.1)  # two signals at once count as one
         process.send_signal(signal.SIGTERM)
         self.ends(process, 3, "cancelled")
 
     def test_the_engine_ends_with_a_parent_that_is_killed(self):
         process = self.start("echo $PPID > {0}.new; mv {0}.new {0}".format(self.path("pid")))
-        while not os.path.exists(self.path("pid")):
-            time.sleep(0.01)
+        self.wait_for(process, "pid")
         with open(self.path("pid")) as file:
             engine = int(file.read())
         process.kill()

@@ -58,3 +58,13 @@ class FolderTest(unittest.TestCase):
 
     def run_program(self, *arguments, **settings):
         return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=300, **settings)
+
+    def refuses(self, part, *arguments, status=1, output="out.inp"):
+        """The line with which `polycube mesh` refuses; it must be one, and nothing may be written."""
+        before = set(os.listdir(self.folder))
+        run = self.run_program("mesh", part, "-o", self.path(output), *arguments)
+        self.assertEqual(run.returncode, status, run.stderr)
+        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+        self.assertTrue(run.stderr.startswith("polycube: "), run.stderr)
+        self.assertEqual(set(os.listdir(self.folder)), before, "something was written")
+        return run.stderr

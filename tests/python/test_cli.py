@@ -14,22 +14,13 @@ import unittest
 import matplotlib
 import meshio
 import numpy as np
-from support import PROGRAM, REPO, VECTOR, FolderTest, FreeCAD, Part, box, chamfered, cylinder, plate
+from support import PROGRAM, REPO, VECTOR, FolderTest, Part, box, chamfered, cylinder, plate
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402  (after the choice of what draws)
 
 
 class Cli(FolderTest):
-    def refuses(self, part, *arguments, status=1, output="out.inp"):
-        before = set(os.listdir(self.folder))
-        run = self.run_program("mesh", part, "-o", self.path(output), *arguments)
-        self.assertEqual(run.returncode, status, run.stderr)
-        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
-        self.assertTrue(run.stderr.startswith("polycube: "), run.stderr)
-        self.assertEqual(set(os.listdir(self.folder)), before, "something was written")
-        return run.stderr
-
     def test_mesh_with_report(self):
         part = self.save(plate())
         run = self.run_program("mesh", part, "-o", self.path("a.inp"), "--size", "3", "--order", "1", "--report", self.path("r.json"))
@@ -114,6 +105,7 @@ class Cli(FolderTest):
             run = self.run_program("mesh", self.path("bad.step"), "-o", self.path("a.vtu"), "--order", "1", "--size", "4")
             statuses[run.returncode] += 1
             self.assertIn(run.returncode, (0, 1, 2), run.stderr)
+            self.assertNotIn("ended by signal", run.stderr)
             if run.returncode:
                 self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
         self.assertGreater(statuses[1], 10)
@@ -219,62 +211,6 @@ class Cli(FolderTest):
             file.write("nothing")
         run = subprocess.run([sys.executable, script, PROGRAM, self.path("three.brep")], capture_output=True, text=True)
         self.assertEqual(run.returncode, 1)
-
-
-class Documents(FolderTest):
-    """FreeCAD documents as input."""
-
-    def save_document(self, build):
-        document = FreeCAD.newDocument()
-        build(document)
-        document.recompute()
-        document.saveAs(self.path("part.FCStd"))
-        FreeCAD.closeDocument(document.Name)
-
-    def mesh(self, *arguments):
-        return self.run_program("mesh", self.path("part.FCStd"), "-o", self.path("a.inp"), "--size", "2", "--order", "1", *arguments)
-
-    def points(self):
-        with open(self.path("a.inp")) as file:
-            rows = [row for row in file.read().split("*ELEMENT")[0].splitlines() if not row.startswith("*")]
-        return np.array([[float(x) for x in row.split(",")[1:]] for row in rows])
-
-    @staticmethod
-    def cut(document):
-        base = document.addObject("Part::Box", "Base")
-        tool = document.addObject("Part::Cylinder", "Tool")
-        tool.Placement.Base = VECTOR(5, 5, 0)
-        result = document.addObject("Part::Cut", "Result")
-        result.Base, result.Tool = base, tool
-        result.Placement.Base = VECTOR(100, 0, 0)
-
-    def test_the_final_solid_is_taken_where_it_stands(self):
-        self.save_document(self.cut)
-        run = self.mesh()
-        self.assertEqual(run.returncode, 0, run.stderr)
-        points = self.points()
-        np.testing.assert_allclose([points[:, 0].min(), points[:, 0].max()], [100, 110], atol=1e-6)
-
-    def test_several_solids_need_a_choice(self):
-        def build(document):
-            document.addObject("Part::Box", "One")
-            document.addObject("Part::Box", "Two").Label = "My part"
-
-        self.save_document(build)
-        run = self.mesh()
-        self.assertEqual(run.returncode, 1)
-        self.assertIn("One, Two", run.stderr)
-        for name in ("Two", "My part"):
-            self.assertEqual(self.mesh("--object", name).returncode, 0)
-        self.assertEqual(self.mesh("--object", "Three").returncode, 1)
-
-    def test_a_document_without_a_solid(self):
-        self.save_document(lambda document: document.addObject("Part::Plane", "Plane"))
-        self.assertEqual(self.mesh().returncode, 1)
-        self.save_document(lambda document: document.addObject("App::DocumentObjectGroup", "Group"))
-        run = self.mesh()
-        self.assertEqual(run.returncode, 1)
-        self.assertIn("no object", run.stderr)
 
 
 if __name__ == "__main__":

@@ -76,6 +76,12 @@ class Decks(FolderTest):
         below = text[text.rindex(heading) :].splitlines()[1:]
         return next([float(number) for number in line.split()] for line in below if re.fullmatch(r"[\s\d.E+-]*\d[\s\d.E+-]*", line))
 
+    @staticmethod
+    def moved(text):
+        """Mean displacement of the nodes that it is printed for."""
+        rows = [line.split() for line in text[text.index("displacements") :].splitlines() if re.match(r"\s+\d+\s+\S+\s+\S+\s+\S+$", line)]
+        return np.array([[float(x) for x in row[1:]] for row in rows]).mean(axis=0)
+
     STATIC = """*INCLUDE, INPUT=mesh.inp
 *MATERIAL, NAME=STEEL
 *ELASTIC
@@ -95,6 +101,29 @@ RF
     def reaction(self, fixed, load, more=""):
         text = self.run_deck(self.STATIC.format(e=STEEL, fixed=fixed, load=load, more=more))
         return np.array(self.last(text, "total force")), text
+
+    def test_tension_is_exact(self):
+        shape = box()
+        fixed, end = face(shape, plane(0, 0)), face(shape, plane(0, 8))
+        for element_type in (*ORDERS, "C3D8R"):
+            with self.subTest(element_type):
+                self.mesh(shape, element_type, 0.5)
+                # A pressure of -100 pulls with 400 N.
+                force, text = self.reaction(fixed, "*DLOAD\n" + self.by_side(end, "{0}_S{1}, P{1}, -100."), "*NODE PRINT, NSET={}\nU".format(end))
+                self.assertAlmostEqual(self.moved(text)[0], 100 / STEEL * 8, delta=1e-7)
+                self.assertAlmostEqual(force[0], -400, delta=0.1)
+
+    def test_bending_needs_the_right_element(self):
+        shape = box()
+        fixed, end = face(shape, plane(0, 0)), face(shape, plane(0, 8))
+        beam = 100 * 8**3 / (3 * STEEL * 2**4 / 12)  # 100 N at the tip, without shear
+        for element_type in ("C3D20", "C3D20R", "C3D8I"):
+            with self.subTest(element_type):
+                nodes = self.mesh(shape, element_type, 0.5).groups[end]["nodes"]
+                force, text = self.reaction(fixed, "*CLOAD\n{}, 3, {}".format(end, -100 / len(nodes)), "*NODE PRINT, NSET={}\nU".format(end))
+                self.assertAlmostEqual(force[2], 100, delta=0.1)
+                self.assertGreater(-self.moved(text)[2], beam)
+                self.assertLess(-self.moved(text)[2], 1.2 * beam)
 
     def test_pressure_on_a_plane_face(self):
         shape = box()
@@ -239,8 +268,7 @@ U
     def press_pair(self, joint, names):
         """(reaction, mean displacement of the pressed face)"""
         text = self.run_deck(self.PAIR.format(e=STEEL, joint=joint.format(**names), **names))
-        rows = [line.split() for line in text[text.index("displacements") :].splitlines() if re.match(r"\s+\d+\s+\S+\s+\S+\s+\S+$", line)]
-        return np.array(self.last(text, "total force")), np.array([[float(x) for x in row[1:]] for row in rows]).mean(axis=0)
+        return np.array(self.last(text, "total force")), self.moved(text)
 
     TIE = "*TIE, NAME=GLUE, POSITION TOLERANCE=0.5\n{slave}_Surfaceb, {master}_Surface"
     # Nothing but friction holds the upper part sideways.

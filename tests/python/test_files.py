@@ -1,17 +1,13 @@
-"""Mesh files read back by other programs: meshio, FreeCAD and CalculiX."""
+"""Mesh files read back by other programs: meshio and FreeCAD."""
 
-import re
-import subprocess
 import unittest
 
 import meshio
 import numpy as np
-from support import FolderTest, box, ccx, needs_calculix, plate
+from support import FolderTest, plate
 
 import _polycube
 import Fem
-
-STEEL = 210000.0
 
 
 class Meshio(FolderTest):
@@ -73,64 +69,6 @@ class FreeCad(FolderTest):
         for order in (1, 2):
             with self.subTest(order=order):
                 self.check(".med", order)
-
-
-@needs_calculix
-class CalculiX(FolderTest):
-    """A bar of 8 x 2 x 2 under tension and a cantilever, by the sets and surfaces of the .inp."""
-
-    def solve(self, element_type, load):
-        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=0.5, element_type=element_type)
-        mesh.write(self.path("mesh.inp"))
-        deck = f"""*INCLUDE, INPUT=mesh.inp
-*MATERIAL, NAME=STEEL
-*ELASTIC
-{STEEL}, 0.0
-*SOLID SECTION, ELSET=Solid1, MATERIAL=STEEL
-*BOUNDARY
-Face1, 1, 3
-*STEP
-*STATIC
-{load(mesh)}
-*NODE PRINT, NSET=Face2
-U
-*NODE PRINT, NSET=Face1, TOTALS=ONLY
-RF
-*END STEP
-"""
-        with open(self.path("job.inp"), "w") as file:
-            file.write(deck)
-        run = subprocess.run([ccx.find(), "job"], cwd=self.folder, capture_output=True, text=True, timeout=300)
-        self.assertNotIn("*ERROR", run.stdout)
-        with open(self.path("job.dat")) as file:
-            text = file.read()
-        table, totals = text.split("total force")
-        rows = [line.split() for line in table.splitlines() if re.match(r"\s+\d+\s", line)]
-        force = [float(x) for x in totals.split("\n")[2].split()]
-        return np.array([[float(x) for x in row[1:4]] for row in rows]).mean(axis=0), force
-
-    def test_tension_is_exact(self):
-        for element_type in ("C3D8", "C3D8I", "C3D8R", "C3D20", "C3D20R"):
-            with self.subTest(element_type):
-                # Face2 of FreeCAD's box is the side x = 8; a pressure of -100 pulls with 400 N.
-                u, force = self.solve(element_type, lambda _: "*DLOAD\n" + self.pressure(-100))
-                self.assertAlmostEqual(u[0], 100 / STEEL * 8, delta=1e-7)
-                self.assertAlmostEqual(force[0], -400, delta=0.1)
-
-    def pressure(self, value):
-        # CalculiX' *DLOAD wants elements and faces: those of the surface.
-        with open(self.path("mesh.inp")) as file:
-            rows = re.search(r"\*SURFACE, NAME=Face2_Surface, TYPE=ELEMENT\n((?:\d.*\n)+)", file.read())
-        return "".join("{}, P{}, {}\n".format(*row.replace(" ", "").split(",S"), value) for row in rows.group(1).splitlines())
-
-    def test_bending_needs_the_right_element(self):
-        beam = 100 * 8**3 / (3 * STEEL * 2**4 / 12)  # 100 N at the tip, without shear
-        for element_type, low, high in (("C3D20", 1.0, 1.2), ("C3D20R", 1.0, 1.2), ("C3D8I", 1.0, 1.2)):
-            with self.subTest(element_type):
-                u, force = self.solve(element_type, lambda mesh: "*CLOAD\nFace2, 3, {}".format(-100 / len(mesh.groups["Face2"]["nodes"])))
-                self.assertAlmostEqual(force[2], 100, delta=0.1)
-                self.assertGreater(-u[2], low * beam)
-                self.assertLess(-u[2], high * beam)
 
 
 if __name__ == "__main__":

@@ -37,18 +37,13 @@ class Reading(FolderTest):
         with open(self.path("report.json")) as file:
             return json.load(file), run.stderr
 
-    def refuses(self, part, *arguments):
-        run = self.run_program("mesh", part, "-o", self.path("a.inp"), *arguments)
-        self.assertEqual(run.returncode, 1, run.stderr)
-        self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
-        return run.stderr
-
     def files(self, shape, folder=None, name="part"):
         """The shape in every format that FreeCAD writes."""
-        folder = folder or self.folder
-        paths = [os.path.join(folder, name + suffix) for suffix in (".step", ".stp", ".iges", ".igs", ".brep", ".brp")]
-        for path in paths:
-            shape.exportStep(path) if path[-4:] in ("step", ".stp") else shape.exportIges(path) if path[-4:] in ("iges", ".igs") else shape.exportBrep(path)
+        writers = {".step": shape.exportStep, ".stp": shape.exportStep, ".iges": shape.exportIges, ".igs": shape.exportIges,
+                   ".brep": shape.exportBrep, ".brp": shape.exportBrep}
+        paths = [os.path.join(folder or self.folder, name + suffix) for suffix in writers]
+        for path, write in zip(paths, writers.values()):
+            write(path)
         return paths
 
 
@@ -159,6 +154,19 @@ class Documents(Reading):
             rows = [row for row in file.read().split("*ELEMENT")[0].splitlines() if not row.startswith("*")]
         points = np.array([[float(x) for x in row.split(",")[1:]] for row in rows])
         return [*points.min(axis=0), *points.max(axis=0)], run.stdout
+
+    def test_the_final_solid_is_taken_where_it_stands(self):
+        def cut(document):
+            result = document.addObject("Part::Cut", "Result")
+            result.Base, result.Tool = document.addObject("Part::Box", "Base"), document.addObject("Part::Cylinder", "Tool")
+            result.Tool.Placement.Base = VECTOR(5, 5, 0)
+            result.Placement.Base = VECTOR(100, 0, 0)
+
+        np.testing.assert_allclose(self.extents(self.save(cut))[0], [100, 0, 0, 110, 10, 10], atol=1e-6)
+
+    def test_a_document_without_a_solid(self):
+        self.refuses(self.save(lambda document: document.addObject("Part::Plane", "Plane")))
+        self.assertIn("no object", self.refuses(self.save(lambda document: document.addObject("App::DocumentObjectGroup", "Group"))))
 
     def test_the_tip_of_a_body_is_its_shape(self):
         def no_dependencies(xml):

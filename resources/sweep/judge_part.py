@@ -5,12 +5,13 @@ CAD's "vertices", "sharp_edges" (by length) and "faces". The verdict of a part w
 """
 
 import json
-import os
 import subprocess
 import sys
 
+from table import write_at_once
+
 FULL = {"vertices": 0.999, "sharp_edges": 0.998, "faces": 0.999}  # shares that count as all: sums of lengths are rounded
-LIMIT = 900  # seconds; OpenCASCADE's fine tessellations, which a judge may ask for, do not all end
+LIMIT = 900  # seconds, a guess; there is one because OpenCASCADE's fine tessellations, which a judge may ask for, do not all end
 
 
 def verdict(found):
@@ -38,9 +39,7 @@ def main():
     with open(result, encoding="utf-8") as file:
         row = json.load(file)
     found = ask(judge, part, mesh) if "report" in row else {"verdict": ""}
-    with open(output + ".new", "w", encoding="utf-8") as file:
-        json.dump(found, file, indent=1)
-    os.replace(output + ".new", output)
+    write_at_once(output, json.dumps(found, indent=1))
     return 0
 
 

@@ -11,10 +11,9 @@ _jobs = {}  # number -> (rule, key)
 _waiting = []  # lines of jobs that are done, for the share of all that is told next
 
 
-def _last_rule():
-    """The one after which a part's line is known."""
+def _judged():
     with open("settings.json", encoding="utf-8") as file:
-        return "judge" if json.load(file)["judge"] else "mesh"
+        return bool(json.load(file)["judge"])
 
 
 def log_handler(message):
@@ -27,5 +26,6 @@ def log_handler(message):
         _waiting.clear()
     elif level == "job_finished":
         rule, key = _jobs.get(message["jobid"], (None, None))
-        if rule == _last_rule():
-            _waiting.append(line(read_row(".", key)))
+        judged = _judged()
+        if rule == ("judge" if judged else "mesh"):  # after which a part's line is known
+            _waiting.append(line(read_row(".", key, judged)))

@@ -1,6 +1,6 @@
 """Picture of a mesh on its part, or of a part without a mesh: picture.py PART RESULT.json MESH.vtu PICTURE.webp.
 
-Two views from opposite corners. The mesh's boundary is coloured by the quality of its cells, from white to red below BAD; cells inside that are bad are
+Two views from opposite corners. The mesh's boundary is coloured by the scaled Jacobian of its cells, from orange to red below BAD; cells inside that are bad are
 dots, drawn over everything. CAD edges are black, those without mesh edges red. Where there is no mesh the CAD itself is drawn, with the faces and edges that the reason
 names in red.
 """
@@ -20,41 +20,26 @@ sys.path += ["/usr/lib/freecad-python3/lib", "/usr/lib/freecad/lib"]
 import FreeCAD  # noqa: E402, F401  (Part needs it)
 import Part  # noqa: E402
 
-BAD = 0.2                                         # scaled Jacobian below which a cell is marked: what solvers ask for at least, mostly
+from table import BAD  # noqa: E402
+
 EYES = np.array([[1.0, -1.3, 0.9], [-1.0, 1.3, -0.9]])
 PAPER, STEEL, RED, INK = (1, 1, 1), (0.72, 0.8, 0.88), (0.86, 0.08, 0.12), (0.08, 0.08, 0.08)
-# VTK's numbering of a hexahedron: its faces, and at every corner the three neighbours in a right-handed order.
-FACES = np.array([[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]])
-CORNERS = np.array([[1, 3, 4], [2, 0, 5], [3, 1, 6], [0, 2, 7], [7, 5, 0], [4, 6, 1], [5, 7, 2], [6, 4, 3]])
 
 
-def scaled_jacobians(points, cells):
-    least = np.full(len(cells), np.inf)
-    for corner, ends in enumerate(CORNERS):
-        edges = points[cells[:, ends]] - points[cells[:, [corner]]]
-        lengths = np.linalg.norm(edges, axis=2).prod(axis=1)
-        least = np.minimum(least, np.linalg.det(edges) / np.maximum(lengths, 1e-300))
-    return least
-
-
-def read_hexes(path):
+def read_mesh(path):
+    """(points, corners of the hexes, their scaled Jacobians, corners of the boundary's quads, scaled Jacobians of their cells)"""
     import meshio
 
     mesh = meshio.read(path)
-    blocks = [block.data[:, :8] for block in mesh.cells if block.type.startswith("hexahedron")]
-    return np.asarray(mesh.points), np.vstack(blocks)
-
-
-def boundary(cells):
-    """Quads that belong to one cell, and the cell of each."""
-    quads = cells[:, FACES].reshape(-1, 4)
-    _, first, count = np.unique(np.sort(quads, axis=1), axis=0, return_index=True, return_counts=True)
-    alone = np.sort(first[count == 1])
-    return quads[alone], alone // 6
+    found = [np.asarray(mesh.points)]
+    for kind, corners in (("hexahedron", 8), ("quad", 4)):
+        ((cells, quality),) = [(block.data[:, :corners], values) for block, values in zip(mesh.cells, mesh.cell_data["ScaledJacobian"]) if block.type.startswith(kind)]
+        found += [cells, quality]
+    return found
 
 
 def quality_colours(values):
-    """White at BAD and above, red at 0 and below."""
+    """Those of steel at BAD and above, red at 0 and below."""
     share = np.clip(values / BAD, 0, 1)[:, None]
     colours = share * np.array([1, 0.75, 0.3]) + (1 - share) * np.array(RED)
     colours[values >= BAD] = STEEL
@@ -132,13 +117,11 @@ def read_shape(part):
 
 
 def mesh_scene(shape, mesh, row):
-    points, cells = read_hexes(mesh)
-    scene = Scene(np.linalg.norm(np.ptp(points[cells], axis=(0, 1))), outlines=True)
-    quality = scaled_jacobians(points, cells)
-    quads, owner = boundary(cells)
-    scene.facets, scene.facet_colours = list(points[quads]), list(quality_colours(quality[owner]))
-    inner = np.setdiff1d(np.flatnonzero(quality < BAD), owner)
-    scene.dots = list(points[cells[inner]].mean(axis=1))
+    points, hexes, quality, quads, quad_quality = read_mesh(mesh)
+    scene = Scene(np.linalg.norm(np.ptp(points[hexes], axis=(0, 1))), outlines=True)
+    scene.facets, scene.facet_colours = list(points[quads]), list(quality_colours(quad_quality))
+    # A quad whose four nodes are a cell's is its side.
+    scene.dots = [points[cell].mean(axis=0) for cell in hexes[quality < BAD] if not np.isin(quads, cell).all(axis=1).any()]
     if shape:
         add_edges(scene, shape, numbers_in(" ".join(row["report"]["cad"]["edges"]["lost"]), "Edge"), scene.diagonal)
     return scene

@@ -17,10 +17,9 @@ import subprocess
 import sys
 import tempfile
 
-from table import FAULTS, counts, outcome, read_row
+from table import FAULTS, SUFFIXES, counts, outcome, read_row
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")
 DONE, BAD_INPUT, FAULTY, STOPPED = 0, 1, 2, 3
 
 
@@ -140,8 +139,9 @@ def sweep(program, given, options):
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         raise BadInput("a sweep in {} is running".format(work)) from None
-    settings = {"here": HERE, "python": sys.executable, "program": program, "digest": digest(program, *sorted(glob.glob(glob.escape(program) + "-*"))), "options": shlex.join(options), "threads": given.threads,
-                "time_limit": given.time_limit, "cpu_limit": given.cpu_limit, "judge": os.path.abspath(given.judge) if given.judge else "",
+    helpers = sorted(glob.glob(glob.escape(program) + "-*"))
+    settings = {"here": HERE, "python": sys.executable, "program": program, "digest": digest(program, *helpers), "options": shlex.join(options),
+                "threads": given.threads, "time_limit": given.time_limit, "cpu_limit": given.cpu_limit, "judge": os.path.abspath(given.judge) if given.judge else "",
                 "judge_digest": digest(given.judge) if given.judge else "", "page": page, "parts": list(parts)}
     link_parts(parts, os.path.join(work, "parts"))
     with open(os.path.join(work, "settings.json"), "w", encoding="utf-8") as file:
@@ -152,7 +152,7 @@ def sweep(program, given, options):
         return STOPPED
     if status:
         raise BadInput("the workflow broke off, see {}".format(os.path.join(work, "snakemake.log")))
-    rows = [read_row(work, key) for key in parts]
+    rows = [read_row(work, key, settings["judge"]) for key in parts]
     print("{}: {}".format(given.output, counts(rows)))
     return FAULTY if any(outcome(row) in FAULTS for row in rows) else DONE
 

@@ -9,17 +9,26 @@ HEAD = ["part", "result", "judge", "exit", "s", "cpu s", "MB", "hexes", "min SJ"
 # From good to bad; what a judge calls INVALID is worse than any answer without a mesh.
 ORDER = ["complete", "valid", "refused", "bad input", "out of time", "no answer", "crash", "INVALID"]
 FAULTS = {"crash", "INVALID"}
+SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")  # of parts, in small letters
+BAD = 0.2  # scaled Jacobian below which a cell is marked: kGoodScaledJacobian of backend/pipeline/search, a guess
 
 
-def read_row(folder, key):
+def read_row(folder, key, judged):
+    """What is known of a part; with the verdict where the sweep has a judge: an earlier sweep may have left one."""
     with open(os.path.join(folder, "results", key + ".json"), encoding="utf-8") as file:
         row = json.load(file)
     row["key"] = key
-    path = os.path.join(folder, "verdicts", key + ".json")
-    if os.path.exists(path):
-        with open(path, encoding="utf-8") as file:
+    if judged:
+        with open(os.path.join(folder, "verdicts", key + ".json"), encoding="utf-8") as file:
             row["verdict"] = json.load(file)["verdict"]
     return row
+
+
+def write_at_once(path, text):
+    """Whoever reads the file finds it whole, or as it was."""
+    with open(path + ".new", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".new", path)
 
 
 def outcome(row):

@@ -5,7 +5,6 @@ The table goes to standard output as Markdown. The page has the picture of every
 """
 
 import argparse
-import base64
 import collections
 import glob
 import html
@@ -15,7 +14,10 @@ import subprocess
 import sys
 import tempfile
 
-SUFFIXES = (".step", ".stp", ".brep", ".brp", ".fcstd")
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "sweep"))
+from page import embedded, html_table, markdown_table  # noqa: E402
+from table import SUFFIXES, write_at_once  # noqa: E402
+
 HEAD = ["part", "faces", "valid", "turning points", "charts", "corners", "stray charts", "zigzags", "edges", "on boundaries", "feature charts", "not captured",
         "label s", "map s", "flipped / tets"]
 Row = collections.namedtuple("Row", "name picture report error")
@@ -27,9 +29,10 @@ def parts_of(arguments):
         yield from (path for path in inside if path.lower().endswith(SUFFIXES))
 
 
-def label(program, part, folder, options):
+def label(program, part, files, options):
+    """`files`: path of what is written, without suffixes."""
     name = os.path.splitext(os.path.basename(part))[0]
-    picture, report = os.path.join(folder, name + ".png"), os.path.join(folder, name + ".json")
+    picture, report = files + ".png", files + ".json"
     run = subprocess.run([program, "label", part, "-o", picture, "--report", report, *options], capture_output=True, text=True)
     if run.returncode:
         return Row(name, None, None, run.stderr.strip())
@@ -67,27 +70,22 @@ def summary(rows):
 
 
 def print_table(rows):
-    print("| " + " | ".join(HEAD) + " |\n|" + "---|" * len(HEAD))
-    for row in rows:
-        print("| " + " | ".join(cells(row)) + " |")
-    print("\n" + summary(rows))
+    print(markdown_table(HEAD, [cells(row) for row in rows]))
+    print(summary(rows))
     for reason, count in reasons(rows):
         print("- {} not captured: {}".format(count, reason))
 
 
 def write_html(path, rows):
-    table = "".join("<tr>" + "".join("<td>{}</td>".format(html.escape(text)) for text in cells(row)) + "</tr>\n" for row in rows)
+    table = html_table(HEAD, [("", [html.escape(text) for text in cells(row)]) for row in rows])
     figures = []
     for row in rows:
         if row.picture:
-            with open(row.picture, "rb") as file:
-                image = base64.b64encode(file.read()).decode()
             lost = ", ".join("{} ({})".format(edge["edge"], edge["reason"]) for edge in row.report["edges"]["lost"])
-            figures.append('<h2>{}</h2><p>Not captured: {}</p><img src="data:image/png;base64,{}">'.format(html.escape(row.name), html.escape(lost or "none"), image))
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("<!DOCTYPE html><meta charset='utf-8'><title>Labels</title><style>body{{font-family:sans-serif}}td,th{{border:1px solid #ccc;padding:2px 6px}}"
-                   "table{{border-collapse:collapse;font-size:80%}}img{{max-width:100%}}</style>\n<h1>Labels</h1><p>{}</p><table><tr>{}</tr>\n{}</table>\n{}\n".format(
-                       html.escape(summary(rows)), "".join("<th>{}</th>".format(name) for name in HEAD), table, "\n".join(figures)))
+            figures.append('<h2>{}</h2><p>Not captured: {}</p><img src="{}">'.format(html.escape(row.name), html.escape(lost or "none"), embedded(row.picture)))
+    write_at_once(path, "<!DOCTYPE html><meta charset='utf-8'><title>Labels</title><style>body{{font-family:sans-serif}}td,th{{border:1px solid #ccc;padding:2px 6px}}"
+                  "table{{border-collapse:collapse;font-size:80%}}img{{max-width:100%}}</style>\n<h1>Labels</h1><p>{}</p>{}{}\n".format(
+                      html.escape(summary(rows)), table, "\n".join(figures)))
 
 
 def write_sheet(path, rows, columns=4, inches=7):
@@ -125,7 +123,7 @@ def main():
     if given.output and not given.output.endswith((".html", ".png")):
         parser.error(given.output + ": the suffix must be .html or .png")
     with tempfile.TemporaryDirectory() as folder:
-        rows = [label(given.program, part, folder, options) for part in parts_of(given.parts)]
+        rows = [label(given.program, part, os.path.join(folder, str(k)), options) for k, part in enumerate(parts_of(given.parts))]
         if not rows:
             parser.error("there is no part in " + ", ".join(given.parts))
         print_table(rows)

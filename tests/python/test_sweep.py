@@ -9,10 +9,14 @@ import sys
 import time
 import unittest
 
+import meshio
+import numpy as np
 from support import PROGRAM, REPO, FolderTest, box, cylinder, plate
 
 SCRIPTS = os.path.join(REPO, "resources", "sweep")
 SWEEP = os.path.join(SCRIPTS, "sweep.py")
+sys.path.insert(0, SCRIPTS)
+import picture  # noqa: E402
 MESH = ("--order", "1", "--hexes", "60")
 
 # Answers as no part gives them at will: by its name the part is the program's undoing.
@@ -181,6 +185,10 @@ class Answers(SweepTest):
         self.assertIn("judge: INVALID", run.stdout)
         self.assertIn("<td>complete</td><td>INVALID</td>", self.text())
 
+        run = self.sweep(*MESH)  # what the judge said is there still, but nobody asks
+        self.assertEqual(run.stdout, self.page + ": 3 parts: 3 complete\n")
+        self.assertNotIn("<td>INVALID</td>", self.text())
+
     def test_bad_arguments(self):
         self.add(box(), "box.brep")
         os.mkdir(self.path("empty"))
@@ -195,6 +203,42 @@ class Answers(SweepTest):
                 self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
                 self.assertTrue(run.stderr.startswith("polycube: "), run.stderr)
                 self.assertEqual(sorted(os.listdir(self.folder)), ["empty", "parts"])
+
+
+class Picture(FolderTest):
+    def test_bad_cells(self):
+        """Of 3 x 3 x 3 cells that in the middle and one at the boundary are bad: a dot inside, one red quad for each side outside."""
+        x = np.arange(4)
+        points = np.stack(np.meshgrid(x, x, x, indexing="ij"), axis=-1).reshape(-1, 3)
+
+        def cell(i, j, k):
+            return [16 * a + 4 * b + c for a, b, c in ((i, j, k), (i + 1, j, k), (i + 1, j + 1, k), (i, j + 1, k), (i, j, k + 1), (i + 1, j, k + 1), (i + 1, j + 1, k + 1), (i, j + 1, k + 1))]
+
+        places = [(i, j, k) for i in range(3) for j in range(3) for k in range(3)]
+        hexes = np.array([cell(*place) for place in places])
+        quality = np.array([0.1 if place in ((1, 1, 1), (1, 1, 0)) else 1.0 for place in places])
+        sides = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
+        outside = [(h, side) for h in range(27) for side in sides if any(np.isin(np.ptp(points[hexes[h][side]], axis=0), 0) &
+                                                                         np.isin(points[hexes[h][side]].mean(axis=0), (0, 3)))]
+        self.assertEqual(len(outside), 54)
+        quads, quad_quality = np.array([hexes[h][side] for h, side in outside]), np.array([quality[h] for h, _ in outside])
+        meshio.Mesh(points.astype(float), [("hexahedron", hexes), ("quad", quads)],
+                    cell_data={"ScaledJacobian": [quality, quad_quality]}).write(self.path("mesh.vtu"))
+        scene = picture.mesh_scene(None, self.path("mesh.vtu"), {})
+        np.testing.assert_allclose(scene.dots, [[1.5, 1.5, 1.5]])
+        marked = [facet.mean(axis=0) for facet, colour in zip(scene.facets, scene.facet_colours) if tuple(colour) != picture.STEEL]
+        np.testing.assert_allclose(marked, [[1.5, 1.5, 0]])
+
+    def test_reads_what_the_mesher_writes(self):
+        for order in ("1", "2"):
+            run = self.run_program("mesh", self.save(plate()), "-o", self.path("mesh.vtu"), "--size", "4", "--order", order, "--report", self.path("r.json"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(self.path("r.json"), encoding="utf-8") as file:
+                report = json.load(file)
+            _, hexes, quality, quads, quad_quality = picture.read_mesh(self.path("mesh.vtu"))
+            self.assertEqual((hexes.shape, quads.shape[1]), ((report["counts"]["hexes"], 8), 4))
+            self.assertEqual((len(quality), len(quad_quality)), (len(hexes), len(quads)))
+            self.assertAlmostEqual(quality.min(), report["quality"]["min_scaled_jacobian"], delta=1e-6)
 
 
 class Cluster(SweepTest):

@@ -6,64 +6,64 @@ last and at once, so an interrupted job leaves none.
 """
 
 import json
+import math
 import os
+import re
 import resource
 import signal
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 
+from table import write_at_once
+
+# What a program that keeps its limit may take to end: it promises 2 s (backend/cli/supervise.cpp), the rest is a guess for a machine that is busy.
 GRACE = 0.1  # of the time limit, and
-GRACE_SECONDS = 5  # besides: what a program that keeps its limit may take to end
-WORDS = {1: "bad input", 2: "refused", 3: "out of time"}
+GRACE_SECONDS = 5  # besides
+WORDS = {0: "mesh", 1: "bad input", 2: "refused", 3: "out of time"}
 
 
 def run(command, time_limit, cpu_limit):
-    """(wait status, seconds, resources used, killed, text on standard error)"""
+    """(exit status, negative for a signal, None where it had to be killed; seconds; text on standard error)"""
+    limits = (lambda: resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + GRACE_SECONDS))) if cpu_limit else None
     with tempfile.TemporaryFile() as errors:
         start = time.monotonic()
-        limits = (lambda: resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + GRACE_SECONDS))) if cpu_limit else None
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True, preexec_fn=limits)
-        late = threading.Event()
-
-        def end(*_):
-            late.set()
-            os.killpg(process.pid, signal.SIGKILL)
-
-        timer = threading.Timer((1 + GRACE) * time_limit + GRACE_SECONDS, end)
-        if time_limit:
-            timer.start()
         try:
-            _, status, used = os.wait4(process.pid, 0)
-            process.returncode = status  # it was waited for
-        except BaseException:
-            os.killpg(process.pid, signal.SIGKILL)
-            raise
-        finally:
-            timer.cancel()
+            status = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=errors, preexec_fn=limits,
+                                    timeout=(1 + GRACE) * time_limit + GRACE_SECONDS if time_limit else None).returncode
+        except subprocess.TimeoutExpired:
+            status = None
         seconds = time.monotonic() - start
         errors.seek(0)
-        return status, seconds, used, late.is_set(), errors.read().decode(errors="replace")
+        return status, seconds, errors.read().decode(errors="replace")
 
 
-def answer(status, late):
-    """(word, exit status or None, what there is to say where the program said nothing)"""
-    if late:
+def ended_by(number):
+    """(word, what there is to say) of a program, or of its engine, that a signal ended."""
+    if number == signal.SIGXCPU:
+        return "no answer", "killed: more processor time than the limit"
+    if number == signal.SIGKILL:
+        return "no answer", "killed: from outside, or out of memory"
+    return "crash", "crash: signal {} ({})".format(number, signal.strsignal(number))
+
+
+def answer(status, last):
+    """(word, exit status or None, what there is to say) by the exit status and the last line on standard error."""
+    if status is None:
         return "no answer", None, "killed: it did not end at the time limit"
-    if os.WIFSIGNALED(status):
-        number = os.WTERMSIG(status)
-        if number in (signal.SIGXCPU, signal.SIGKILL):
-            return "no answer", None, "killed: " + ("more processor time than the limit" if number == signal.SIGXCPU else "from outside, or out of memory")
-        return "crash", None, "crash: " + signal.Signals(number).name
-    code = os.WEXITSTATUS(status)
-    return WORDS.get(code, "mesh" if code == 0 else "crash"), code, "" if code == 0 else "exit status {} without a word".format(code)
+    if status < 0:
+        word, reason = ended_by(-status)
+        return word, None, reason
+    engine = re.search(r"the engine ended by signal (\d+)", last)
+    if engine:
+        return ended_by(int(engine.group(1)))[0], status, last
+    return WORDS.get(status, "crash"), status, last or "exit status {} without a word".format(status)
 
 
 def main():
     program, part, result, mesh, time_limit, cpu_limit, *options = sys.argv[1:]
-    time_limit, cpu_limit = float(time_limit), int(float(cpu_limit))
+    time_limit, cpu_limit = float(time_limit), math.ceil(float(cpu_limit))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     report = result + ".report"
     for old in (mesh, report):
@@ -72,14 +72,14 @@ def main():
     command = [program, "mesh", part, "-o", mesh, "--report", report, *options]
     if time_limit:
         command += ["--time-limit", repr(time_limit)]
-    status, seconds, used, late, text = run(command, time_limit, cpu_limit)
-    word, code, reason = answer(status, late)
+    status, seconds, text = run(command, time_limit, cpu_limit)
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
     said = [line.removeprefix("polycube: ") for line in text.splitlines() if line.strip()]
     warnings = [line.removeprefix("warning: ") for line in said if line.startswith("warning: ")]
     said = [line for line in said if not line.startswith("warning: ")]
+    word, code, reason = answer(status, said[-1] if said else "")
     row = {"part": os.path.basename(os.path.realpath(part)), "result": word, "exit": code, "seconds": seconds,
-           "cpu_seconds": used.ru_utime + used.ru_stime, "memory_mb": used.ru_maxrss / 1024, "warnings": warnings,
-           "reason": (said[-1] if said and word not in ("crash", "no answer") else reason)}
+           "cpu_seconds": used.ru_utime + used.ru_stime, "memory_mb": used.ru_maxrss / 1024, "warnings": warnings, "reason": reason}
     if code == 0:
         with open(report, encoding="utf-8") as file:
             row["report"] = json.load(file)
@@ -92,9 +92,7 @@ def main():
     if code != 0:
         with open(mesh, "w", encoding="utf-8"):
             pass
-    with open(result + ".new", "w", encoding="utf-8") as file:
-        json.dump(row, file, indent=1)
-    os.replace(result + ".new", result)
+    write_at_once(result, json.dumps(row, indent=1))
     return 0
 
 

@@ -1,5 +1,6 @@
 """The command `sweep`: goes on where it was stopped, takes whatever answer a part gives, judges, makes its page."""
 
+import errno
 import glob
 import json
 import os
@@ -23,11 +24,31 @@ MESH = ("--order", "1", "--hexes", "60")
 PROGRAM_THAT_FAILS = """#!/bin/sh
 case $2 in
 */crash.*) kill -SEGV $$ ;;
+*/limit.*) kill -XCPU $$ ;;
 */endless.*) while :; do :; done ;;
 */refused.*) echo 'polycube: stage label: no way out (Face3, Edge12)' >&2; exit 2 ;;
 */late.*) echo 'polycube: out of time' >&2; exit 3 ;;
 esac
 exec {} "$@"
+"""
+
+# Waits at its third and its sixth mesh, for the first line of a fifo and no longer than a minute.
+PROGRAM_THAT_WAITS = """#!/bin/sh
+case $2 in
+parts/*)
+    echo "$2" >> {folder}/starts
+    case $(wc -l < {folder}/starts) in
+    3 | 6) timeout --foreground 60 head -n 1 {folder}/fifo ;;
+    esac
+    ;;
+esac
+exec {program} "$@"
+"""
+
+# In the place of polycube-tet: what a bug or a limit would do to the engine, its parent.
+WORKER = """#!/bin/sh
+kill -{} $PPID
+while kill -0 $PPID 2> {}; do sleep 0.1; done
 """
 
 JUDGE = """#!/bin/sh
@@ -88,26 +109,52 @@ class SweepTest(FolderTest):
         with open(path or self.page, encoding="utf-8") as file:
             return file.read()
 
-    def stop_after(self, count, stop):
-        """Starts the sweep and calls stop(process) once `count` results are there. Returns what the process says."""
-        process = subprocess.Popen(self.command(*MESH), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        while process.poll() is None and len(self.results()) < count:
-            time.sleep(0.01)
-        self.assertIsNone(process.poll(), "the sweep ended by itself")
-        stop(process)
-        return process.communicate()
+    def working(self):
+        """Processes whose folder is the sweep's."""
+        found = []
+        for link in glob.glob("/proc/[0-9]*/cwd"):
+            try:
+                inside = os.readlink(link).startswith(os.path.realpath(self.work))
+            except OSError:  # it has ended, or is a zombie
+                continue
+            if inside:
+                found.append(int(link.split("/")[2]))
+        return found
 
 
 class GoesOn(SweepTest):
-    def test_killed_in_the_middle(self):
-        for k in range(10):
-            self.add((box, cylinder, plate)[k % 3](), "part_{}.brep".format(k))
+    def stop_at_wait(self, program, stop):
+        """Starts the sweep and calls stop(process) once the program waits. Returns what the process says."""
+        process = subprocess.Popen(self.command(*MESH, program=program), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        fifo = None
+        while fifo is None and process.poll() is None:
+            try:
+                fifo = os.open(self.path("fifo"), os.O_WRONLY | os.O_NONBLOCK)
+            except OSError as error:
+                self.assertEqual(error.errno, errno.ENXIO)  # nobody reads
+                time.sleep(0.01)
+        self.assertIsNone(process.poll(), "the sweep ended by itself")
+        self.addCleanup(os.close, fifo)  # until then the program waits
+        stop(process)
+        output = process.communicate(timeout=60)
+        for _ in range(1000):
+            if not self.working():
+                break
+            time.sleep(0.01)
+        self.assertEqual(self.working(), [], "processes are left")
+        return output
 
-        _, errors = self.stop_after(2, lambda process: process.send_signal(signal.SIGTERM))
+    def test_killed_in_the_middle(self):
+        for k in range(7):
+            self.add((box, cylinder, plate)[k % 3](), "part_{}.brep".format(k))
+        os.mkfifo(self.path("fifo"))
+        program = self.script("program", PROGRAM_THAT_WAITS.format(program=PROGRAM, folder=self.folder))
+
+        _, errors = self.stop_at_wait(program, lambda process: process.send_signal(signal.SIGTERM))
         self.assertIn("stopped", errors)
         self.assertEqual(len(errors.splitlines()), 1, errors)
         after_stop = self.results()
-        self.assertGreaterEqual(len(after_stop), 2)
+        self.assertEqual(len(after_stop), 2)
         self.assertFalse(os.path.exists(self.page))
 
         def kill(process):
@@ -116,31 +163,29 @@ class GoesOn(SweepTest):
             os.killpg(workflow[0], signal.SIGKILL)  # a session of its own
             process.kill()
 
-        self.stop_after(len(after_stop) + 3, kill)
+        self.stop_at_wait(program, kill)
         after_kill = self.results()
-        self.assertLess(len(after_kill), 10)
+        self.assertEqual(len(after_kill), 4)
         self.assertFalse(os.path.exists(self.page))
 
-        run = self.sweep(*MESH)
+        run = self.sweep(*MESH, program=program)
         last = self.results()
-        self.assertEqual(len(last), 10)
-        for key, written in after_stop.items():
+        self.assertEqual(len(last), 7)
+        for key, written in {**after_stop, **after_kill}.items():
             self.assertEqual(last[key], written, key + " was made twice")
-        # Of what was finished before the kill only the part whose files Snakemake had not yet noted as whole is made again.
-        again = [key for key, written in after_kill.items() if last[key] != written]
-        self.assertLessEqual(len(again), 1)
+        self.assertEqual(len(self.text(self.path("starts")).splitlines()), 7 + 2)
         lines = run.stdout.splitlines()
-        self.assertEqual(len(lines), 10 - len(after_kill) + len(again) + 1, run.stdout)
-        self.assertEqual(lines[-1], self.page + ": 10 parts: 10 complete")
+        self.assertEqual(len(lines), 3 + 1, run.stdout)
+        self.assertEqual(lines[-1], self.page + ": 7 parts: 7 complete")
         page = self.text()
-        self.assertEqual(page.count("<img src='data:image/webp;base64,"), 10)
+        self.assertEqual(page.count("<img src='data:image/webp;base64,"), 7)
         self.assertNotIn("http", page.split("base64,")[0])
 
         # All is there: nothing is made again, until a part, an option or the program is another.
-        self.assertEqual(len(self.sweep(*MESH).stdout.splitlines()), 1)
+        self.assertEqual(len(self.sweep(*MESH, program=program).stdout.splitlines()), 1)
         self.assertEqual(self.results(), last)
         self.add(box(), "part_1.brep")
-        self.assertEqual(len(self.sweep(*MESH).stdout.splitlines()), 2)
+        self.assertEqual(len(self.sweep(*MESH, program=program).stdout.splitlines()), 2)
         self.assertEqual({key for key, written in self.results().items() if last[key] != written}, {"part_1.brep"})
 
     def test_other_options_other_results(self):
@@ -153,28 +198,57 @@ class GoesOn(SweepTest):
 
 class Answers(SweepTest):
     def test_whatever_comes(self):
-        self.add(plate(), "a plate {1} ä.brep", "good.brep", "crash.brep", "endless.brep", "refused.brep", "late.brep")
+        self.add(plate(), "a plate {1} ä.brep", "good.brep", "crash.brep", "limit.brep", "refused.brep", "late.brep")
         self.script(os.path.join("parts", "text.step"), "hello\n")
         self.script(os.path.join("parts", "notes.txt"), "no part\n")
         program = self.script("program", PROGRAM_THAT_FAILS.format(PROGRAM))
-        run = self.sweep(*MESH, "--cpu-limit", "1", program=program, status=2)
+        run = self.sweep(*MESH, program=program, status=2)
         self.assertEqual(len(run.stdout.splitlines()), 8, run.stdout)
         self.assertIn("7 parts: 2 complete, 1 refused, 1 bad input, 1 out of time, 1 no answer, 1 crash", run.stdout)
-        self.assertEqual([self.row(name + ".brep")["exit"] for name in ("good", "crash", "endless", "refused", "late")], [0, None, None, 2, 3])
-        self.assertIn("SIGSEGV", self.row("crash.brep")["reason"])
+        self.assertEqual([self.row(name + ".brep")["exit"] for name in ("good", "crash", "limit", "refused", "late")], [0, None, None, 2, 3])
+        self.assertEqual(self.row("crash.brep")["reason"], "crash: signal 11 (Segmentation fault)")
         self.assertEqual(self.row("refused.brep")["reason"], "stage label: no way out (Face3, Edge12)")
         good = self.row("good.brep")
         self.assertGreater(good["memory_mb"], 1)
         self.assertGreater(good["seconds"], 0)
         page = self.text()
-        for text in ("a plate {1} ä.brep", "SIGSEGV", "no way out (Face3, Edge12)", "7/7"):
+        for text in ("a plate {1} ä.brep", "Segmentation fault", "no way out (Face3, Edge12)", "7/7"):
             self.assertIn(text, page)
 
         self.page = self.path("page.md")  # the same results
-        self.sweep(*MESH, "--cpu-limit", "1", program=program, status=2)
+        self.sweep(*MESH, program=program, status=2)
         table = self.text()
         self.assertIn("| crash.brep | crash |  | - |", table)
         self.assertEqual(sum(line.startswith("| ") for line in table.splitlines()), 8)
+
+    def test_processor_limit(self):
+        self.add(box(), "endless.brep")
+        run = self.sweep(*MESH, "--cpu-limit", "0.5", program=self.script("program", PROGRAM_THAT_FAILS.format(PROGRAM)))
+        self.assertIn("1 parts: 1 no answer", run.stdout)
+        self.assertIn("more processor time than the limit", self.row("endless.brep")["reason"])
+        self.assertGreater(self.row("endless.brep")["cpu_seconds"], 0.9)
+
+    def mesh_part(self, program, *limits, **environment):
+        """The row that mesh_part.py makes of a box."""
+        part, result, mesh = self.save(box()), self.path("result.json"), self.path("mesh.vtu")
+        run = subprocess.run([sys.executable, os.path.join(SCRIPTS, "mesh_part.py"), program, part, result, mesh, *limits], capture_output=True, text=True,
+                             env=dict(os.environ, **environment), timeout=300)
+        self.assertEqual((run.returncode, run.stderr), (0, ""))
+        self.assertEqual(os.path.getsize(mesh), 0)
+        with open(result, encoding="utf-8") as file:
+            return json.load(file)
+
+    def test_an_engine_that_a_signal_ends(self):
+        """The program itself ends well then, with a line."""
+        for name, word in (("SEGV", "crash"), ("ABRT", "crash"), ("XCPU", "no answer"), ("KILL", "no answer")):
+            with self.subTest(name):
+                row = self.mesh_part(PROGRAM, "0", "0", POLYCUBE_TET_WORKER=self.script("worker", WORKER.format(name, os.devnull)))
+                self.assertEqual((row["result"], row["exit"]), (word, 2))
+                self.assertRegex(row["reason"], r"\Astage tet: the engine ended by signal {} ".format(int(getattr(signal, "SIG" + name))))
+
+    def test_a_program_that_keeps_no_limit_is_killed(self):
+        row = self.mesh_part(self.script("program", "#!/bin/sh\nexec sleep 60\n"), "0.1", "0")
+        self.assertEqual((row["result"], row["exit"], row["reason"]), ("no answer", None, "killed: it did not end at the time limit"))
 
     def test_verdicts(self):
         self.add(box(), "box_1.brep", "box_2_wrong.brep", "silent.brep")

@@ -35,7 +35,7 @@ def make_analysis(part, fixed):
 
 
 def set_quantity(obj, name, value, unit):
-    """Sets a load in N or MPa. FreeCAD 0.20 has plain numbers for it; 1.x has quantities, and takes a plain number as mN or kPa."""
+    """Sets a load in N, MPa and so on. FreeCAD 0.20 has plain numbers for it; 1.x has quantities, and takes a plain number as mN or kPa."""
     plain = obj.getTypeIdOfProperty(name) == "App::PropertyFloat"
     setattr(obj, name, value if plain else FreeCAD.Units.Quantity("{} {}".format(value, unit)))
 

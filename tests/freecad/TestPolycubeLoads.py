@@ -19,6 +19,9 @@ from freecad.polycube import load_sets, objects
 
 calculix = solver_tests.calculix
 
+#: properties that FreeCAD 0.20 has as plain numbers in these units
+UNITS = {"Force": "N", "Pressure": "MPa", "DFlux": "W/m^2", "FilmCoef": "W/m^2/K", "AmbientTemp": "K", "Temperature": "K", "initialTemperature": "K"}
+
 
 def written(analysis, solver, folder):
     """Path of the input file that FreeCAD writes."""
@@ -47,9 +50,13 @@ class LoadTest(solver_tests.SolverTest):
 
     def add(self, analysis, kind, part, *names, **values):
         obj = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(self.document, kind))[0]
-        obj.References = [(part, name) for name in names]
+        if names:
+            obj.References = [(part, name) for name in names]
         for name, value in values.items():
-            setattr(obj, name, value)
+            if name in UNITS:
+                calculix.set_quantity(obj, name, value, UNITS[name])
+            else:
+                setattr(obj, name, value)
         return obj
 
     def group(self, mesh, name):
@@ -233,7 +240,7 @@ class Heat(LoadTest):
         steel.Material = dict(
             steel.Material, ThermalConductivity="50 W/m/K", ThermalExpansionCoefficient="0 m/m/K", SpecificHeat="500 J/kg/K"
         )
-        analysis.addObject(ObjectsFem.makeConstraintInitialTemperature(self.document, "Start"))[0].initialTemperature = 300
+        self.add(analysis, "InitialTemperature", part, initialTemperature=300)
         self.add(analysis, "Temperature", part, outer, Temperature=300)
         obj = polycube.create_fem_mesh(part, size=3, analysis=analysis)
         self.add(analysis, "Heatflux", part, inner, **heat)

@@ -4,6 +4,7 @@ import os
 import shutil
 import tempfile
 import unittest
+from unittest import mock
 
 import FreeCAD
 
@@ -71,6 +72,15 @@ class Compat(unittest.TestCase):
             file.seek(0)
             self.assertEqual(file.read(), b"heard")
         self.assertEqual(mesh.GroupCount, 1)
+
+    def test_forces_in_newtons(self):
+        """0.20 has plain numbers; 1.x quantities, of which its writer takes the value, so that it has to be without a unit."""
+        Quantity = FreeCAD.Units.Quantity
+        self.assertEqual(compat.newtons(mock.Mock(Force=1000.0)), 1000)
+        for text in ("1 kN", "1000 N", "1e6 mN"):
+            force = compat.newtons(mock.Mock(Force=Quantity(text)))
+            self.assertAlmostEqual(force.Value, 1000)
+            self.assertEqual(force.Unit, FreeCAD.Units.Unit())
 
     def test_quiet_ends_with_an_error(self):
         before = os.fstat(1)

@@ -1,4 +1,4 @@
-"""What differs between FreeCAD 0.20 and 1.x, and between their Qt, in one place."""
+"""What FreeCAD 0.20 and 1.x, and their Qt, do differently, as functions; what they name differently in menus and toolbars is in init_gui."""
 
 import os
 import sys
@@ -34,6 +34,15 @@ def set_part(obj, part):
         obj.Part = part
     else:
         obj.Shape = part
+
+
+def newtons(force):
+    """A force constraint's force in N, as the writers for solvers take loads of nodes: a plain number in 0.20, in 1.x a quantity without a unit.
+
+    There the property is a quantity, which FreeCAD holds in mN.
+    """
+    value = force.Force
+    return FreeCAD.Units.Quantity(value.getValueAs("N")) if isinstance(value, FreeCAD.Units.Quantity) else value
 
 
 def qt_number(flag):

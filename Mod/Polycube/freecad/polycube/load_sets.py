@@ -9,7 +9,7 @@ import functools
 
 import FreeCAD
 
-from . import shapes
+from . import compat, shapes
 
 #: corners of the sides of a hexahedron in SMESH's order, by their numbers in the files for CalculiX that FreeCAD writes
 _SIDES = {1: (4, 5, 6, 7), 2: (0, 1, 2, 3), 3: (1, 2, 5, 6), 4: (2, 3, 6, 7), 5: (0, 3, 4, 7), 6: (0, 1, 4, 5)}
@@ -192,7 +192,7 @@ def _fill_force(mesh, member):
     whole = sum(size for _, size, _ in found)
     member["NodeLoadTable"] = []
     for title, size, weights in found:
-        factor = force.Force * size / whole / sum(weights.values())
+        factor = compat.newtons(force) * (size / whole / sum(weights.values()))
         member["NodeLoadTable"].append((title, {node: weight * factor for node, weight in weights.items()}))
     # FreeCAD takes the direction of a force inside the container of what it is the direction of; the mesh may stand elsewhere.
     source = force.Direction[0] if force.Direction else force.References[0][0]

@@ -11,6 +11,7 @@ from unittest import mock
 import FreeCAD
 import numpy
 import Part
+import stuck
 from FreeCAD import Rotation, Vector
 
 from freecad import polycube
@@ -86,17 +87,13 @@ class MeshArrays(unittest.TestCase):
             polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, time_limit=0.2)
 
     def test_a_mesher_that_is_stuck_keeps_the_time_limit(self):
-        with tempfile.TemporaryDirectory() as folder:
-            worker = os.path.join(folder, "worker")
-            with open(worker, "w") as file:
-                file.write("#!/bin/sh\nkill -STOP $PPID\nsleep 60\n")
-            os.chmod(worker, 0o700)
-            os.environ["POLYCUBE_TET_WORKER"] = worker
-            try:
-                with self.assertRaisesRegex(polycube.Cancelled, "out of time"):
-                    polycube.mesh(Part.makeBox(10, 10, 10), time_limit=1)
-            finally:
-                del os.environ["POLYCUBE_TET_WORKER"]
+        with stuck.mesher(), self.assertRaisesRegex(polycube.Cancelled, "out of time"):
+            polycube.mesh(Part.makeBox(10, 10, 10), time_limit=1)
+
+    def test_a_time_limit_that_is_none_is_refused(self):
+        for limit in (0, -5, math.nan):
+            with self.subTest(limit=limit), self.assertRaisesRegex(polycube.InvalidInput, "time_limit"):
+                polycube.mesh(Part.makeBox(10, 10, 10), time_limit=limit)
 
     def test_progress_and_log_arrive(self):
         stages, lines = [], []

@@ -9,10 +9,12 @@ import FreeCAD
 import FreeCADGui
 import ObjectsFem
 import Part
+import stuck
 from gui_support import GuiTest, picture, process_events, wait_until
 from pivy import coin
 from PySide import QtCore, QtGui
 
+from freecad import polycube
 from freecad.polycube import commands, fem_mesh, objects, quality_view, task_panel
 
 
@@ -122,6 +124,18 @@ class Panel(GuiTest):
         self.press("Cancel")
         self.assertEqual(list(self.document.UndoNames), [])
 
+    def test_a_mesher_that_is_stuck_keeps_the_time_limit(self):
+        obj = polycube.create_fem_mesh(self.box, size=20)
+        obj.TimeLimit = 1
+        panel = self.caught(lambda: obj.ViewObject.Proxy.doubleClicked(obj.ViewObject))
+        with stuck.mesher():
+            self.press("Apply")
+            folder = panel.job.folder
+            self.assertTrue(wait_until(lambda: not panel.process, 20))
+        self.assertIn("out of time", panel.form.log.toPlainText())
+        self.assertFalse(os.path.exists(folder))
+        self.assertTrue(FreeCADGui.Control.activeDialog(), "the panel stays for another try")
+
     def test_a_bad_size_is_said_in_the_log(self):
         panel = self.open_panel(self.box)
         panel.form.element_size.setProperty("rawValue", 1e5)
@@ -132,8 +146,6 @@ class Panel(GuiTest):
         self.assertEqual(self.document.Objects, [self.box])
 
     def test_double_click_edits_and_the_icon_follows_the_state(self):
-        from freecad import polycube
-
         obj = polycube.create_fem_mesh(self.box, size=10)
         current = obj.ViewObject.Proxy.getIcon()
         self.box.Length = 80
@@ -155,8 +167,6 @@ class Panel(GuiTest):
         self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
 
     def test_ok_keeps_parameters_without_meshing(self):
-        from freecad import polycube
-
         obj = polycube.create_fem_mesh(self.box, size=10)
         cells = obj.FemMesh.HexaCount
         obj.ViewObject.Proxy.doubleClicked(obj.ViewObject)

@@ -16,7 +16,8 @@ import time
 from . import engine, result
 from .errors import Cancelled, InvalidInput, StageFailed
 
-# From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it.
+# From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
+# (kGrace in backend/cli/supervise.cpp), within the 2 s after the limit that the contract gives.
 _GRACE = 1.5
 _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
 
@@ -26,8 +27,7 @@ class Job:
 
     def __init__(self, shape, options, what="mesh"):
         self.what = what
-        limit = options.get("time_limit")
-        self.longest = limit + _GRACE if isinstance(limit, (int, float)) and limit > 0 else None  # seconds that the child may take at all
+        self._limit = options.get("time_limit")
         self.folder = tempfile.mkdtemp(prefix="polycube-job-")
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
@@ -50,6 +50,11 @@ class Job:
     def command(self):
         """Program and arguments of the child process."""
         return [engine.python(), os.path.join(engine.HERE, "worker.py"), self.folder, self.what]
+
+    def out_of_time(self, seconds):
+        """Whether a child that has run for so many seconds is to be killed: it has not ended by itself at the time limit."""
+        limit = self._limit or 0  # one that is not positive the child refuses
+        return limit > 0 and seconds > limit + _GRACE
 
     @staticmethod
     def parse(line):
@@ -88,7 +93,7 @@ def run(job, progress=None, log=None, cancel=None):
         env=engine.environment(job.folder),
         text=True,
     )
-    watcher = _Watcher(child, cancel, job.longest)
+    watcher = _Watcher(child, cancel, job)
     stderr = _Drain(child.stderr)
     try:
         for line in child.stdout:
@@ -142,13 +147,13 @@ class _Drain(threading.Thread):
 
 
 class _Watcher(threading.Thread):
-    """Kills the child when `cancel` says so or it takes more than `longest` seconds; `reason` tells which."""
+    """Kills the child when `cancel` says so or the job is out of time; `reason` tells which."""
 
-    def __init__(self, child, cancel, longest):
+    def __init__(self, child, cancel, job):
         super().__init__(daemon=True)
         self.finished = threading.Event()
         self.reason = None
-        self._child, self._cancel, self._longest = child, cancel, longest
+        self._child, self._cancel, self._job = child, cancel, job
         self._start = time.monotonic()
         self.start()
 
@@ -156,7 +161,7 @@ class _Watcher(threading.Thread):
         while not self.finished.wait(0.1):
             if self._cancel and self._cancel():
                 self.reason = "cancelled"
-            elif self._longest and time.monotonic() - self._start > self._longest:
+            elif self._job.out_of_time(time.monotonic() - self._start):
                 self.reason = "out of time"
             if self.reason:
                 kill_tree(self._child.pid)

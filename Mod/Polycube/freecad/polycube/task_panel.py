@@ -60,9 +60,9 @@ class MeshPanel:
         self.form.colours.toggled.connect(self._colour)
         self.timer = QtCore.QTimer()
         self.timer.setInterval(100)
-        self.timer.timeout.connect(self._show_time)
-        self.process = self.job = None
-        self.started = 0.0
+        self.timer.timeout.connect(self._watch)
+        self.process = self.job = self.reason = None  # the reason why the process was killed
+        self.started = self.process_started = 0.0
         self.options = option_table.read(obj) if obj else {}
         self.labels = dict(self.options.get("labels", {}))  # set by hand: {"Face3": "+X"}
         self.overlay = self.clicks = self.shown_labels = None
@@ -157,7 +157,7 @@ class MeshPanel:
             self._close_job()
             self.log(str(error), error=True)
             return
-        self.cancelled = False
+        self.reason = None
         self._out, self._err = "", ""
         variables = QtCore.QProcessEnvironment()
         for name, value in environment.items():
@@ -172,6 +172,7 @@ class MeshPanel:
         self.form.parameters.setEnabled(False)
         self.log("{} {} ...".format(message, self.part.Label))
         self.timer.start()
+        self.process_started = time.monotonic()
         self.process.start(program, arguments)
 
     def _beside(self):
@@ -181,8 +182,17 @@ class MeshPanel:
     def cancel(self):
         """Kills the mesher; the panel stays."""
         if self.process:
-            self.cancelled = True
-            job.kill_tree(int(self.process.processId()))
+            self._kill("cancelled")
+
+    def _kill(self, reason):
+        self.reason = reason
+        job.kill_tree(int(self.process.processId()))
+
+    def _watch(self):
+        """Ten times a second while the mesher runs."""
+        self._show_time()
+        if not self.reason and self.job.out_of_time(time.monotonic() - self.process_started):
+            self._kill("out of time")
 
     def _read_output(self):
         self._out += bytes(self.process.readAllStandardOutput()).decode("utf-8", "replace")
@@ -216,8 +226,8 @@ class MeshPanel:
         self._show_time()
         self.form.parameters.setEnabled(True)
         try:
-            if self.cancelled:
-                raise Cancelled("cancelled")
+            if self.reason:
+                raise Cancelled(self.reason)
             made = self.job.finish(status, self._err)
             (self._take if self.job.what == "mesh" else self._show_labels)(made)
         except StageFailed as error:

@@ -5,6 +5,7 @@ POLYCUBE_OPENINGS sets how often, 40 unless told: 300 take two to five minutes.
 
 import gc
 import os
+from unittest import mock
 
 import FreeCAD
 import FreeCADGui
@@ -125,6 +126,35 @@ class ClosedWithoutAWord(GuiTest):
                         FreeCADGui.activeDocument().resetEdit()
                         self.assertEqual(scene.getNumChildren(), before)
                         self.assertEqual(len(self.document.Objects), 2 if edit else 1)
+
+    def test_with_all_marks_on(self):
+        """What marks the mesh and what listens in the 3D view goes with the panel, without an error, after an Apply too."""
+        for close in (FreeCADGui.Control.closeDialog, self.close_document):
+            for edit in (False, True):
+                with self.subTest(close=close.__name__, edit=edit):
+                    if not self.is_open():
+                        self.setUp()
+                    panel = self.open(edit)
+                    panel.form.element_size.setProperty("rawValue", 20.0)
+                    self.press("Apply")
+                    self.assertTrue(wait_until(lambda: not panel.process))
+                    panel.form.preview.setChecked(True)
+                    self.assertTrue(wait_until(lambda: not panel.process))
+                    panel.form.worst.selectRow(0)
+                    panel.form.colours.setChecked(True)
+                    view, clicks = panel.obj.ViewObject, panel.clicks
+                    self.assertTrue(view.HighlightedNodes)
+                    with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed, mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
+                        close()
+                        process_events()
+                    self.assertEqual(error.call_args_list, [])
+                    removed.assert_called_once_with()
+                    self.assertIsNone(panel.form)
+                    self.assertIsNone(panel.clicks)
+                    if self.is_open():
+                        self.assertEqual(list(view.HighlightedNodes), [])
+                        FreeCADGui.activeDocument().resetEdit()
+                        self.document.removeObject(panel.obj.Name)
 
     def test_while_it_meshes(self):
         def begin(panel):

@@ -103,6 +103,7 @@ class MeshPanel:
     def slotDeletedDocument(self, document):
         """FreeCAD leaves a panel open whose document is closed."""
         if document.Name == self.document_name and self._form is not None:
+            self.obj = None  # it is in the document still, but shown no more
             FreeCADGui.Control.closeDialog()
 
     def getStandardButtons(self):
@@ -279,8 +280,8 @@ class MeshPanel:
         if self.process:
             self.cancel()
             self.process.waitForFinished()  # it was killed; _finished is called here
-        self._clear_marks()
         self._end_preview()
+        self._clear_marks()
 
     def _close(self):
         gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None

@@ -10,6 +10,7 @@ from unittest import mock
 
 import FreeCAD
 import numpy
+import ObjectsFem
 import Part
 import stuck
 from FreeCAD import Rotation, Vector
@@ -464,6 +465,47 @@ class FemMeshObject(DocumentTest):
         polycube.update_fem_mesh(obj)
         self.assertEqual(obj.MeshState, objects.CURRENT)
         self.assertGreater(obj.FemMesh.HexaCount, cells)
+
+    def test_out_of_date_when_the_shape_changes_while_it_is_meshed(self):
+        box = self.box()
+        obj = polycube.create_fem_mesh(box, size=5)
+
+        def longer(*_):
+            box.Length = 80
+            self.document.recompute()
+
+        cells = obj.Hexahedra
+        with mock.patch.object(FreeCAD.Console, "PrintWarning", create=True) as warn:
+            polycube.update_fem_mesh(obj, progress=longer)
+        self.assertIn("the part has changed while it was meshed", warn.call_args.args[0])
+        self.assertEqual((obj.Hexahedra, obj.MeshState), (cells, objects.OUTDATED))
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        polycube.update_fem_mesh(obj)
+        self.assertEqual((obj.Hexahedra, obj.MeshState), (2 * cells, objects.CURRENT))
+
+    def test_faces_with_constraints_go_while_the_part_is_meshed(self):
+        box = Part.makeBox(10, 10, 10)
+        part = self.feature(box.makeChamfer(3, box.Edges[:1]))
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        fixed = analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))[0]
+        fixed.References = [(part, "Face7")]
+
+        def other(*_):
+            part.Shape = box
+
+        obj = polycube.create_fem_mesh(part, size=5, analysis=analysis, progress=other)
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+    def test_out_of_date_when_the_part_has_no_shape_any_more(self):
+        part = self.feature(Part.makeBox(10, 10, 10))
+        obj = polycube.create_fem_mesh(part, size=5)
+        for nothing in (Part.makeCompound([]), Part.Shape()):
+            part.Shape = nothing
+            obj.touch()
+            self.document.recompute()
+            self.assertTrue(obj.isValid())
+            self.assertEqual(obj.MeshState, objects.OUTDATED)
 
     def test_out_of_date_when_an_option_changes(self):
         obj = polycube.create_fem_mesh(self.box(), size=5)

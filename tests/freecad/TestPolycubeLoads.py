@@ -111,7 +111,7 @@ class MechanicalLoads(LoadTest):
         result.nodes[result.groups["Face2"]["nodes"]] += (1e-6, 0, 0)
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
-        self.assertFalse([line for line in objects.set_mesh(obj, result, {"size": 5}) if "lost" in line])
+        self.assertEqual(self.set_mesh(obj, result), [])
         self.assertFalse(obj.FemMesh.getFacesByFace(part.Shape.getElement("Face2")))
         self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
         pressure = self.add(analysis, "Pressure", part, "Face3", Pressure=2.0)
@@ -285,7 +285,7 @@ class Warnings(LoadTest):
         self.add(analysis, "Bearing", part, inner)
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
-        warnings = objects.set_mesh(obj, polycube.mesh(part, size=9), {"size": 9})
+        warnings = self.set_mesh(obj, polycube.mesh(part, size=9))
         self.assertIn("Bearing: this FreeCAD writes nothing for it into the input of CalculiX", warnings)
 
     def test_without_our_groups_what_freecad_loses_is_told(self):
@@ -295,6 +295,6 @@ class Warnings(LoadTest):
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
         result = polycube.mesh(part, size=5)
-        self.assertEqual(objects.set_mesh(obj, result, {"size": 5}), [])
+        self.assertEqual(self.set_mesh(obj, result), [])
         with mock.patch.object(load_sets, "install", return_value=False):
-            self.assertTrue(any("heat flux" in line for line in objects.set_mesh(obj, result, {"size": 5})))
+            self.assertTrue(any("heat flux" in line for line in self.set_mesh(obj, result)))

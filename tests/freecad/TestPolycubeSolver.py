@@ -16,7 +16,7 @@ import Part
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import fem_mesh, load_sets, objects
+from freecad.polycube import fem_mesh, load_sets, objects, shapes
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "examples"))
 import bracket  # noqa: E402  (the demo's part)
@@ -91,11 +91,18 @@ class SolverTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="polycube-solver-")
         self.addCleanup(shutil.rmtree, self.folder, True)
-        self.document = None
+        self.addCleanup(self.close_documents, set(FreeCAD.listDocuments()))
 
-    def tearDown(self):
-        if self.document:
-            FreeCAD.closeDocument(self.document.Name)
+    @staticmethod
+    def close_documents(others):
+        """Those that the test has opened, FreeCAD's examples among them."""
+        for name in set(FreeCAD.listDocuments()) - others:
+            FreeCAD.closeDocument(name)
+
+    @staticmethod
+    def set_mesh(obj, result):
+        """Gives the object a mesh of its part that the test may have changed; returns the warnings."""
+        return objects.set_mesh(obj, result, {}, shapes.signature(shapes.shape_of(objects.part_of(obj), obj)))
 
 
 @needs_calculix
@@ -241,6 +248,7 @@ class FeatureAngle(SolverTest):
     """A block with one edge along Z rounded, whose face on the +X side carries a constraint."""
 
     def setUp(self):
+        super().setUp()
         self.document = FreeCAD.newDocument()
         block = Part.makeBox(20, 20, 10)
         self.part = self.document.addObject("Part::Feature", "Block")
@@ -282,7 +290,7 @@ class Warnings(SolverTest):
         result.report["cad"]["faces"]["lost"] = ["Face1"]
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
-        self.assertIn("Support: the mesh does not capture Face1", objects.set_mesh(obj, result, {"size": 5}))
+        self.assertIn("Support: the mesh does not capture Face1", self.set_mesh(obj, result))
 
     def test_groups_replace_a_search_that_misses_nodes(self):
         """A mesh whose nodes are 1e-6 mm off the face: FreeCAD's search finds none of them, the group does."""
@@ -297,7 +305,7 @@ class Warnings(SolverTest):
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
         with mock.patch.object(load_sets, "install", return_value=False):
-            warnings = objects.set_mesh(obj, result, {"size": 5})
+            warnings = self.set_mesh(obj, result)
         self.assertTrue(any("Push" in line and "force gets lost" in line for line in warnings), warnings)
         names = [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups]
         self.assertIn("Support_Nodes", names)

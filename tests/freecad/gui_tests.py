@@ -136,6 +136,29 @@ class Panel(GuiTest):
         self.assertFalse(os.path.exists(folder))
         self.assertTrue(FreeCADGui.Control.activeDialog(), "the panel stays for another try")
 
+    def test_a_part_that_changes_while_it_is_meshed(self):
+        panel = self.open_panel(self.box)
+        panel.form.element_size.setProperty("rawValue", 20.0)
+        self.press("Apply")
+        self.box.Length = 80
+        self.document.recompute()
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertEqual(panel.obj.MeshState, objects.OUTDATED)
+        self.assertIn("the part has changed while it was meshed", panel.form.log.toPlainText())
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertEqual(panel.obj.MeshState, objects.CURRENT)
+
+    def test_an_analysis_that_goes_while_the_part_is_meshed(self):
+        FemGui.setActiveAnalysis(ObjectsFem.makeAnalysis(self.document, "Analysis"))
+        panel = self.open_panel(self.box)
+        panel.form.element_size.setProperty("rawValue", 20.0)
+        self.press("Apply")
+        self.document.removeObject(panel.analysis.Name)
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertEqual(self.document.Objects, [self.box, panel.obj], panel.form.log.toPlainText())
+        self.assertEqual(panel.obj.MeshState, objects.CURRENT)
+
     def test_a_bad_size_is_said_in_the_log(self):
         panel = self.open_panel(self.box)
         panel.form.element_size.setProperty("rawValue", 1e5)

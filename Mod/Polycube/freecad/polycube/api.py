@@ -55,12 +55,13 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
         raise InvalidInput("analysis is not an analysis object of the document")
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
+    meshed = shapes.signature(shape)
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
     with transaction(part.Document, "Hexahedral mesh from shape"):
         obj = objects.make(part.Document, part, name)
         if analysis:
             analysis.addObject(obj)
-        _warn(obj, objects.set_mesh(obj, result, given))
+        _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
 
 
@@ -72,9 +73,10 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None):
     _check_object(part)
     given = option_table.read(obj)
     shape = shapes.shape_of(part, beside=obj)
+    meshed = shapes.signature(shape)
     result = _run("mesh", shape, with_constraints(given, part, objects.analysis_of(obj)), progress, log, cancel)
     with transaction(obj.Document, "Hexahedral mesh"):
-        _warn(obj, objects.set_mesh(obj, result, given))
+        _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
 
 

@@ -46,12 +46,15 @@ def analysis_of(obj):
     return next((parent for parent in obj.InList if parent.isDerivedFrom("Fem::FemAnalysis")), None)
 
 
-def set_mesh(obj, result, options):
-    """Gives the object its mesh. Call inside a transaction. Returns warnings, one line each."""
+def set_mesh(obj, result, options, meshed_shape):
+    """Gives the object its mesh. `meshed_shape`: signature of the shape that was meshed. Call inside a transaction. Returns warnings, one line each."""
     mesh = fem_mesh.build(result)
     warnings = list(result.report.get("warnings", []))
+    obj.MeshedShape = meshed_shape
     analysis = analysis_of(obj)
-    if analysis:
+    if not shape_is_meshed(obj):
+        warnings.append("the part has changed while it was meshed: make the mesh again")
+    elif analysis:
         warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis)
     option_table.write(obj, options)
     quality = result.report["quality"]
@@ -63,8 +66,7 @@ def set_mesh(obj, result, options):
     obj.MeshVolume = result.report["volume"]["mesh"]
     obj.Report = json.dumps(result.report)
     obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
-    obj.MeshedShape = shapes.signature(shapes.shape_of(part_of(obj), obj))
-    obj.MeshState = CURRENT
+    obj.MeshState = state(obj)
     return warnings
 
 
@@ -74,17 +76,18 @@ def state(obj):
         return EMPTY
     try:
         same_options = obj.MeshedOptions == json.dumps(option_table.read(obj), sort_keys=True)
-        if same_options and shape_is_meshed(obj):
-            return CURRENT
-    except InvalidInput:  # of an option or of the shape
-        pass
-    return OUTDATED
+    except InvalidInput:  # options that cannot be read
+        return OUTDATED
+    return CURRENT if same_options and shape_is_meshed(obj) else OUTDATED
 
 
 def shape_is_meshed(obj):
-    """Whether the mesh is one of its part as this is now. Raises InvalidInput where the part has no shape."""
-    part = part_of(obj)
-    return bool(part) and shapes.same(list(obj.MeshedShape), shapes.signature(shapes.shape_of(part, obj)))
+    """Whether the mesh is one of its part as this is now."""
+    try:
+        shape = shapes.shape_of(part_of(obj), obj)
+    except InvalidInput:  # there is none
+        return False
+    return shapes.same(list(obj.MeshedShape), shapes.signature(shape))
 
 
 class Stateless:

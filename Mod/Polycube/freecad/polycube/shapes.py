@@ -122,7 +122,9 @@ def check_solid(shape):
 
 
 def signature(shape):
-    """Numbers that change when the shape changes: counts, size, and per face, edge and vertex where it is and how big."""
+    """Numbers that change when the shape changes: counts, size, and per face, edge and vertex where it is and how big. None of an empty shape."""
+    if shape.isNull() or not shape.Faces:
+        return []
     numbers = [len(shape.Faces), len(shape.Edges), len(shape.Vertexes), shape.BoundBox.DiagonalLength, shape.Volume]
     for face in shape.Faces:
         numbers += [face.Area, *face.CenterOfMass]

@@ -68,7 +68,7 @@ class MeshPanel:
         self.overlay = self.clicks = self.shown_labels = None
         self._automatic_labels = {}  # of faces before they were set by hand, as far as is known
         self._labels_are_old = False
-        self._meshed_options = {}
+        self._meshed_options, self._meshed_shape = {}, []
         self.form.label_key.setText(label_view.key())
         self.form.preview.toggled.connect(self._preview)
         self.form.automatic.clicked.connect(self._automatic)
@@ -151,6 +151,7 @@ class MeshPanel:
                 raise PolycubeError("there is no part to mesh")
             shape = shapes.shape_of(self.part, self._beside())
             shapes.check_solid(shape)
+            self._meshed_shape = shapes.signature(shape)
             self.job = job.Job(shape, options, what)
             program, *arguments = self.job.command()
             environment = engine.environment(self.job.folder)
@@ -253,9 +254,9 @@ class MeshPanel:
             with api.transaction(document, _TITLE if self.obj else "Hexahedral mesh from shape"):
                 if not self.obj:
                     self.obj = objects.make(document, self.part)
-                    if self.analysis:
+                    if _exists(self.analysis):
                         self.analysis.addObject(self.obj)
-                warnings = objects.set_mesh(self.obj, result, self._meshed_options)
+                warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape)
         finally:
             QtGui.QApplication.restoreOverrideCursor()
         self.form.preview.setChecked(False)

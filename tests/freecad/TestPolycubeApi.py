@@ -381,6 +381,13 @@ class BadInput(DocumentTest):
         for analysis in ("Analysis", 3, box):
             self.assertIn("analysis", self.check(box, analysis=analysis))
 
+    def test_an_analysis_in_another_document(self):
+        box, other = self.box(), FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(other.Name))
+        analysis = ObjectsFem.makeAnalysis(other, "Elsewhere")
+        self.assertEqual(self.check(box, analysis=analysis), "Elsewhere is in another document than Box")
+        self.assertEqual((other.Objects, list(analysis.Group)), ([analysis], []))
+
     def test_not_a_shape(self):
         with self.assertRaises(polycube.InvalidInput):
             polycube.mesh("Box")

@@ -52,7 +52,9 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 
     _check_object(part)
     if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
-        raise InvalidInput("analysis is not an analysis object of the document")
+        raise InvalidInput("analysis is not an analysis object")
+    if analysis is not None and analysis.Document != part.Document:
+        raise InvalidInput("{} is in another document than {}".format(analysis.Label, part.Label))
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
     meshed = shapes.signature(shape)

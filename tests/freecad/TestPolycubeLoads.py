@@ -12,7 +12,6 @@ import Part
 import TestPolycubeSolver as solver_tests
 from FreeCAD import Vector
 from femmesh import meshtools
-from femtools import ccxtools
 
 from freecad import polycube
 from freecad.polycube import load_sets, objects
@@ -23,15 +22,6 @@ calculix = solver_tests.calculix
 UNITS = {"Force": "N", "Pressure": "MPa", "DFlux": "W/m^2", "FilmCoef": "W/m^2/K", "AmbientTemp": "K", "Temperature": "K", "initialTemperature": "K"}
 
 
-def written(analysis, solver, folder):
-    """Path of the input file that FreeCAD writes."""
-    fea = ccxtools.FemToolsCcx(analysis, solver, test_mode=False)
-    fea.update_objects()
-    fea.setup_working_dir(folder)
-    fea.write_inp_file()
-    return fea.inp_file_name
-
-
 class LoadTest(solver_tests.SolverTest):
     def part(self, shape):
         self.document = FreeCAD.newDocument()
@@ -39,7 +29,7 @@ class LoadTest(solver_tests.SolverTest):
         part.Shape = shape
         return part
 
-    def tube(self, outer=10.0, inner=9.3, height=10.0, size=9):
+    def tube(self, outer=10.0, inner=9.3, height=10.0):
         """Walls so thin for the cells that arcs on the CAD need inner edges to give way: (part, name of the outer side, of the inner, ends)"""
         part = self.part(Part.makeCylinder(outer, height).cut(Part.makeCylinder(inner, height)))
         names = {}
@@ -58,6 +48,10 @@ class LoadTest(solver_tests.SolverTest):
             else:
                 setattr(obj, name, value)
         return obj
+
+    def written(self, analysis):
+        """Path of the input file that FreeCAD writes."""
+        return calculix.write(analysis, solver_tests.solver_of(analysis), self.folder).inp_file_name
 
     def group(self, mesh, name):
         return next(mesh.getGroupElements(group) for group in mesh.Groups if mesh.getGroupName(group) == name)
@@ -79,7 +73,7 @@ class MechanicalLoads(LoadTest):
         if when == "after":
             load()
         self.document.recompute()
-        path = written(analysis, solver, self.folder)
+        path = self.written(analysis)
         self.assertAlmostEqual(solver_tests.nodal_loads(path).Length, 1000, delta=0.01)
         self.assertEqual(len(set(solver_tests.pressure_faces(path))), len(self.group(obj.FemMesh, inner)))
 
@@ -119,12 +113,12 @@ class MechanicalLoads(LoadTest):
         # A group of this name is older than the support's present face.
         support = next(member for member in analysis.Group if member.isDerivedFrom("Fem::ConstraintFixed"))
         self.assertIn("Support_Nodes", [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups])
-        path = written(analysis, solver, self.folder)
+        path = self.written(analysis)
         self.assertLess((solver_tests.nodal_loads(path) - Vector(1000, 0, 0)).Length, 1e-6)
         self.assertEqual(len(solver_tests.pressure_faces(path)), len(result.groups["Face2"]["quads"]))
         self.assertEqual(self.fixed(path, support), set((result.groups["Face1"]["nodes"] + 1).tolist()))
         support.References = [(part, "Face5")]
-        self.assertEqual(self.fixed(written(analysis, solver, self.folder), support), set((result.groups["Face5"]["nodes"] + 1).tolist()))
+        self.assertEqual(self.fixed(self.written(analysis), support), set((result.groups["Face5"]["nodes"] + 1).tolist()))
 
     def fixed(self, path, support):
         with open(path, encoding="utf-8") as file:
@@ -141,7 +135,7 @@ class MechanicalLoads(LoadTest):
                 polycube.create_fem_mesh(part, size=9, analysis=analysis)
                 self.add(analysis, "Force", part, *names, Force=1000, Direction=(part, [ends[1]]))
                 self.document.recompute()
-                path = written(analysis, solver, self.folder)
+                path = self.written(analysis)
                 self.assertAlmostEqual(solver_tests.nodal_loads(path).Length, 1000, delta=0.01)
                 for member in [*analysis.Group, analysis]:
                     self.document.removeObject(member.Name)
@@ -156,7 +150,7 @@ class MechanicalLoads(LoadTest):
         self.document.saveAs(path)
         FreeCAD.closeDocument(self.document.Name)
         self.document = FreeCAD.openDocument(path)
-        again = written(self.document.Analysis, self.document.Solver, self.folder)
+        again = self.written(self.document.Analysis)
         self.assertAlmostEqual(solver_tests.nodal_loads(again).Length, 1000, delta=0.01)
 
     def test_a_part_that_has_changed_is_searched(self):
@@ -168,39 +162,60 @@ class MechanicalLoads(LoadTest):
         part.Shape = Part.makeBox(12, 10, 10)
         self.document.recompute()
         with mock.patch.object(load_sets.FreeCAD.Console, "PrintWarning", create=True) as warn:
-            path = written(analysis, solver, self.folder)
+            path = self.written(analysis)
         self.assertTrue(any("has changed" in call.args[0] for call in warn.call_args_list))
         self.assertEqual(solver_tests.pressure_faces(path), [])
 
-    def test_a_part_in_a_turned_container(self):
-        """FreeCAD 0.20 looks for its faces, and takes the direction of a force, inside the container; the mesh stands where the part is."""
+    def test_a_part_that_is_gone_is_searched(self):
+        self.document = FreeCAD.newDocument()
+        container = self.document.addObject("App::Part", "Container")
+        box, other = (container.addObject(self.document.addObject("Part::Box", name))[0] for name in ("Box", "Other"))
+        other.Placement.Base = Vector(30, 0, 0)
+        container.removeObject(other)
+        self.document.recompute()
+        analysis, _ = calculix.make_analysis(other, ["Face1"])
+        polycube.create_fem_mesh(container, size=5, analysis=analysis)
+        container.removeObject(box)
+        with mock.patch.object(FreeCAD.Console, "PrintWarning", create=True) as warn:
+            self.written(analysis)
+        self.assertTrue(any("has changed" in call.args[0] for call in warn.call_args_list))
+
+    def in_turned_container(self):
+        """(container, a box of 10 mm in it)"""
         self.document = FreeCAD.newDocument()
         container = self.document.addObject("App::Part", "Container")
         box = self.document.addObject("Part::Box", "Box")
         container.addObject(box)
         container.Placement = FreeCAD.Placement(Vector(5, -3, 2), FreeCAD.Rotation(Vector(1, 2, 3), 50))
         self.document.recompute()
+        return container, box
+
+    def test_a_part_in_a_turned_container(self):
+        """FreeCAD 0.20 looks for its faces, and takes the direction of a force, inside the container; the mesh stands where the part is."""
+        container, box = self.in_turned_container()
+        rims = ["Edge{}".format(n) for n, edge in enumerate(box.Shape.Edges, 1) if edge.CenterOfMass.x > 9]
+        corners = ["Vertex{}".format(n) for n, vertex in enumerate(box.Shape.Vertexes, 1) if vertex.X > 9]
         for part in (box, container):
-            with self.subTest(part.Name):
-                analysis, solver = calculix.make_analysis(box, ["Face1"])
-                obj = polycube.create_fem_mesh(part, size=5, analysis=analysis)
-                self.add(analysis, "Force", box, "Face2", Force=1000, Direction=(box, ["Face2"]))
-                self.add(analysis, "Pressure", box, "Face3", Pressure=2.0)
-                self.document.recompute()
-                path = written(analysis, solver, self.folder)
-                along = container.Placement.Rotation.multVec(Vector(1, 0, 0))
-                self.assertLess((solver_tests.nodal_loads(path) - along * 1000).Length, 0.01)
-                self.assertEqual(len(solver_tests.pressure_faces(path)), len(self.group(obj.FemMesh, "Face3")))
-                for member in [*analysis.Group, analysis]:
-                    self.document.removeObject(member.Name)
+            for loaded in (["Face2"], rims, corners, corners[:1]):
+                with self.subTest(part.Name, loaded=loaded):
+                    analysis, _ = calculix.make_analysis(box, ["Face1"])
+                    obj = polycube.create_fem_mesh(part, size=5, analysis=analysis)
+                    self.add(analysis, "Force", box, *loaded, Force=1000, Direction=(box, ["Face2"]))
+                    self.add(analysis, "Pressure", box, "Face3", Pressure=2.0)
+                    self.document.recompute()
+                    path = self.written(analysis)
+                    along = container.Placement.Rotation.multVec(Vector(1, 0, 0))
+                    self.assertLess((solver_tests.nodal_loads(path) - along * 1000).Length, 0.01)
+                    self.assertEqual(len(solver_tests.pressure_faces(path)), len(self.group(obj.FemMesh, "Face3")))
+                    for member in [*analysis.Group, analysis]:
+                        self.document.removeObject(member.Name)
 
     def test_other_meshes_are_left_to_freecad(self):
         from femexamples import ccx_cantilever_faceload
 
         self.document = ccx_cantilever_faceload.setup()
-        load_sets.install()
         with mock.patch.object(load_sets.GroupedMesh, "__init__", side_effect=AssertionError):
-            path = written(self.document.Analysis, self.document.CalculiXccxTools, self.folder)
+            path = self.written(self.document.Analysis)
         self.assertLess((solver_tests.nodal_loads(path) - Vector(0, 0, -9e6)).Length, 1e-3 * 9e6)
 
 
@@ -226,6 +241,7 @@ class Sides(LoadTest):
         self.assertEqual(set(weights), set(grouped.getNodesByFace(face)))
 
 
+@solver_tests.needs_calculix
 class Heat(LoadTest):
     """A tube held at 300 K outside; heat comes in at the bore, as a flux and from a fluid. Closed forms of the wall's temperature there."""
 
@@ -262,6 +278,7 @@ class Heat(LoadTest):
         self.assertAlmostEqual((found - 300) / (100 * through / (at_wall + through)), 1, delta=1e-3)
 
 
+@solver_tests.needs_calculix
 class SectionPrint(LoadTest):
     def test_force_through_a_face(self):
         part = self.part(Part.makeBox(40, 10, 10))
@@ -296,5 +313,5 @@ class Warnings(LoadTest):
         analysis.addObject(obj)
         result = polycube.mesh(part, size=5)
         self.assertEqual(self.set_mesh(obj, result), [])
-        with mock.patch.object(load_sets, "install", return_value=False):
+        with mock.patch.object(objects, "GROUPS_ARE_ASKED", False):
             self.assertTrue(any("heat flux" in line for line in self.set_mesh(obj, result)))

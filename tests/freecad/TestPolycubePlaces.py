@@ -11,7 +11,7 @@ import Part
 from FreeCAD import Placement, Rotation, Vector
 
 from freecad import polycube
-from freecad.polycube import fem_mesh, load_sets, objects, shapes
+from freecad.polycube import fem_mesh, objects, shapes
 
 TURNED = Placement(Vector(100, -20, 7), Rotation(Vector(1, 2, 3), 50))
 MOVED = Placement(Vector(-3, 40, 0), Rotation(Vector(0, 0, 1), 30))
@@ -207,6 +207,72 @@ class Moves(PlacesTest):
         self.document.recompute()
         self.assertEqual(obj.MeshState, objects.OUTDATED)
 
+    def test_only_what_the_container_moves_is_marked(self):
+        first, second = self.add("App::Part"), self.add("App::Part")
+        near = polycube.create_fem_mesh(self.box(first), size=5, order=1)
+        far = polycube.create_fem_mesh(self.box(second), size=5, order=1)
+        other = FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(other.Name))
+        box = other.addObject("Part::Box", "Box")
+        other.recompute()
+        elsewhere = polycube.create_fem_mesh(box, size=5, order=1)
+
+        def marked():
+            return [obj for obj in (near, far, elsewhere) if "Touched" in obj.State]
+
+        def settle():
+            self.document.recompute()
+            other.recompute()
+            self.assertEqual(marked(), [])
+
+        settle()
+        first.Placement = MOVED
+        self.assertEqual(marked(), [near])
+        settle()
+        self.assertEqual([obj.MeshState for obj in (near, far, elsewhere)], [objects.OUTDATED, objects.CURRENT, objects.CURRENT])
+        second.addObject(self.add("Part::Sphere"))
+        self.assertNotIn(elsewhere, marked())
+        settle()
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        settle()
+        analysis.addObject(ObjectsFem.makeConstraintFixed(self.document, "Fixed"))
+        self.assertEqual(marked(), [], "an analysis places nothing")
+
+    def test_a_container_that_is_deleted(self):
+        container = self.add("App::Part", placement=TURNED)
+        inner = self.add("App::Part", container, MOVED)
+        links = self.add("App::LinkGroup", ElementList=[self.box()], Placement=TURNED)
+        meshes = [polycube.create_fem_mesh(box, size=5, order=1) for box in (self.box(container), self.box(inner), links.ElementList[0])]
+        self.document.recompute()
+        for number, gone in ((1, inner), (0, container), (2, links)):
+            self.assertEqual(meshes[number].MeshState, objects.CURRENT)
+            for _ in range(2):
+                self.document.openTransaction("Delete")
+                self.document.removeObject(gone.Name)
+                self.document.commitTransaction()
+                self.document.recompute()
+                self.assertEqual(meshes[number].MeshState, objects.OUTDATED)
+                self.document.undo()
+                self.document.recompute()
+                self.assertEqual(meshes[number].MeshState, objects.CURRENT)
+
+    def test_into_a_plain_group_in_a_container(self):
+        container = self.add("App::Part", placement=TURNED)
+        group = self.add("App::DocumentObjectGroup", container)
+        box = self.box()
+        self.document.recompute()
+        obj = polycube.create_fem_mesh(box, size=5, order=1)
+        self.document.recompute()
+        group.addObject(box)
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        group.removeObject(box)
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED, "FreeCAD leaves it in the container")
+        container.removeObject(box)
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+
     def test_after_opening_a_document_again(self):
         container = self.add("App::Part", placement=TURNED)
         obj = polycube.create_fem_mesh(self.box(container), size=5, order=1)
@@ -241,9 +307,8 @@ class Constraints(PlacesTest):
         obj = polycube.create_fem_mesh(part, size=5, order=1, analysis=analysis)
         mesh = obj.FemMesh
         result = polycube.mesh(part, size=5, order=1)
-        self.assertEqual(fem_mesh.add_constraint_groups(mesh.copy(), result, part, analysis), [])
-        with mock.patch.object(load_sets, "install", return_value=False):
-            lost = fem_mesh.add_constraint_groups(mesh.copy(), result, part, analysis)
+        self.assertEqual(fem_mesh.add_constraint_groups(mesh.copy(), result, part, analysis, True), [])
+        lost = fem_mesh.add_constraint_groups(mesh.copy(), result, part, analysis, False)
         loaded = mesh.getFacesByFace(box.Shape.getElement("Face2"))
         self.assertEqual([line.rpartition(", ")[2] for line in lost], [] if loaded else ["all of the force gets lost", "all of the pressure gets lost"])
         groups = {mesh.getGroupName(group): mesh.getGroupElements(group) for group in mesh.Groups}
@@ -260,6 +325,19 @@ class Constraints(PlacesTest):
             for part in (box, container):
                 with self.subTest(part=part.Name):
                     self.check(part, box)
+
+    def test_references_by_the_container_are_none_of_the_mesh(self):
+        """FreeCAD's writers read the shape of the object that is named; a container has none. FreeCAD 1.0 crashes when a constraint is given one."""
+        container = self.add("App::Part", placement=TURNED)
+        box = self.box(container)
+        self.document.recompute()
+        fixed = mock.Mock(TypeId="Fem::ConstraintFixed", References=[(container, (box.Name + ".Face1",))], isDerivedFrom="Fem::Constraint".__eq__)
+        analysis = mock.Mock(Group=[fixed])
+        mesh, result = polycube.create_fem_mesh(box, size=5, order=1).FemMesh, polycube.mesh(box, size=5, order=1)
+        for part in (box, container):
+            self.assertEqual(fem_mesh.constrained_faces(part, analysis), [])
+            self.assertEqual(fem_mesh.add_constraint_groups(mesh, result, part, analysis, True), [])
+            self.assertEqual(mesh.GroupCount, len(result.groups))
 
 
 class Shapes(PlacesTest):

@@ -16,7 +16,7 @@ import Part
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import fem_mesh, load_sets, objects, shapes
+from freecad.polycube import fem_mesh, objects, shapes
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "resources", "examples"))
 import bracket  # noqa: E402  (the demo's part)
@@ -304,7 +304,7 @@ class Warnings(SolverTest):
         result.nodes[result.groups["Face1"]["nodes"]] += (1e-6, 0, 0)
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
-        with mock.patch.object(load_sets, "install", return_value=False):
+        with mock.patch.object(objects, "GROUPS_ARE_ASKED", False):
             warnings = self.set_mesh(obj, result)
         self.assertTrue(any("Push" in line and "force gets lost" in line for line in warnings), warnings)
         names = [obj.FemMesh.getGroupName(group) for group in obj.FemMesh.Groups]

@@ -2,7 +2,7 @@
 
 import importlib.util
 
-from . import compat, engine, load_sets, shapes
+from . import compat, engine, shapes
 
 #: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
@@ -77,20 +77,20 @@ def add_group(mesh, name, kind, elements):
             mesh.addGroupElements(mesh.addGroup(name, kind), elements)
 
 
-def add_constraint_groups(mesh, result, part, analysis):
-    """Adds the groups that FreeCAD's own search by geometry would not find by itself; returns warnings, one line each.
+def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
+    """Adds groups with the names of constraints and materials, by which FreeCAD finds what its search does not; returns warnings, one line each.
 
-    They are for a FreeCAD without our load_sets: a group `<Constraint>_Nodes` replaces the search for that constraint, also after its references were changed. So
-    it is written only where the search (1e-7 mm) misses nodes, as it does on curved edges that second order had to leave straight. Where there are several
-    materials, each gets `<Material>_Volumes`.
+    A group `<Constraint>_Nodes` is for a FreeCAD whose writers do not ask our other groups (`groups_are_asked`, see load_sets), such as one without this
+    workbench. It replaces the search for that constraint, also after its references were changed; so it is written only where the search (1e-7 mm) misses
+    nodes, as it does on curved edges that second order had to leave straight. `<Material>_Volumes`, where there are several materials, is for every FreeCAD.
     """
     warnings, node_groups, materials = [], [], []
-    whole = load_sets.install()
+    solid = shapes.solid_object(part)
     lost = {name for kind in result.report["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for member in analysis.Group:
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
         what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY.get(member.TypeId)
-        if what and not whole:
+        if what and not groups_are_asked:
             warnings.append("{}: FreeCAD cannot apply {} to hexahedra".format(member.Label, what))
         writer = _WRITERS.get(kind) or _WRITERS.get(member.TypeId)
         if writer and not importlib.util.find_spec("femsolver.calculix.write_constraint_" + writer):
@@ -98,50 +98,45 @@ def add_constraint_groups(mesh, result, part, analysis):
         if kind in ("Fem::MaterialCommon", "Fem::Material"):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
-            references = _references(member, part)
+            references = _references(member, solid)
             warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name in lost]
-            references = {name: obj for name, obj in references.items() if name in result.groups and not name.startswith("Solid")}
+            references = [name for name in references if name in result.groups and not name.startswith("Solid")]
             nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
-            if references and set(nodes) - _found(mesh, references):
+            if references and set(nodes) - _found(mesh, solid, references):
                 node_groups.append((member.Name + "_Nodes", nodes))
-            for kind, load in _FACE_LOADS.items():
-                if member.isDerivedFrom(kind) and not whole:
-                    warnings += _lost_load(mesh, result, member, references, load)
+            for load_kind, load in _FACE_LOADS.items():
+                if member.isDerivedFrom(load_kind) and not groups_are_asked:
+                    warnings += _lost_load(mesh, result, member, solid, references, load)
     # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
         add_group(mesh, name, "Node", nodes)
     if len(materials) > 1:
         for material in sorted(materials, key=lambda member: (len(member.Name), member.Name)):
-            if any(obj in _same_solid(part) for obj, _ in material.References):
+            if any(obj in (part, solid) for obj, _ in material.References):
                 add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
     return warnings
 
 
-def _lost_load(mesh, result, member, references, load):
+def _lost_load(mesh, result, member, solid, references, load):
     """FreeCAD finds the mesh faces that carry a load by geometry alone, groups do not help it."""
-    for name, obj in references.items():
+    for name in references:
         if name.startswith("Face"):
-            found, there = len(mesh.getFacesByFace(obj.Shape.getElement(name))), len(result.groups[name]["quads"])
+            found, there = len(mesh.getFacesByFace(solid.Shape.getElement(name))), len(result.groups[name]["quads"])
             if found < there:
                 yield "{}: FreeCAD finds {} of the {} mesh faces on {}, {} the {} gets lost".format(
                     member.Label, found, there, name, "part of" if found else "all of", load
                 )
 
 
-def _same_solid(part):
-    """The objects by which the part's entities may be referred to: itself and, of a container, what is inside."""
-    return (part, shapes.solid_object(part))
-
-
-def _references(member, part):
-    """The part's entities that a constraint refers to: their names, and the object by which it does."""
-    objects = _same_solid(part)
-    return {name.split(".")[-1]: obj for obj, names in getattr(member, "References", []) if obj in objects for name in names if name}
+def _references(member, solid):
+    """Names of the solid's entities that a constraint refers to. FreeCAD's writers know no other way than by the object that has the shape itself."""
+    return [name for obj, names in getattr(member, "References", []) if obj == solid for name in names if name]
 
 
 def constrained_faces(part, analysis):
     """Names of the part's faces that carry constraints of the analysis, or have an edge or vertex that does; no mesh may do without them."""
-    shape = getattr(shapes.solid_object(part), "Shape", None)
+    solid = shapes.solid_object(part)
+    shape = getattr(solid, "Shape", None)
     if not shape or not analysis:
         return []
     faces = shape.Faces
@@ -149,7 +144,7 @@ def constrained_faces(part, analysis):
     for member in analysis.Group:
         if not member.isDerivedFrom("Fem::Constraint"):
             continue
-        for name in _references(member, part):
+        for name in _references(member, solid):
             if name.startswith("Face"):
                 found.add(int(name[4:]))
             elif not name.startswith("Solid"):
@@ -158,7 +153,7 @@ def constrained_faces(part, analysis):
     return ["Face{}".format(number) for number in sorted(found)]
 
 
-def _found(mesh, references):
+def _found(mesh, solid, references):
     """Node numbers that FreeCAD's search finds on these entities: it looks where they are in their container, not where that stands."""
     search = {"Face": mesh.getNodesByFace, "Edge": mesh.getNodesByEdge, "Vertex": mesh.getNodesByVertex}
-    return {node for name, obj in references.items() for node in search[name.rstrip("0123456789")](obj.Shape.getElement(name))}
+    return {node for name in references for node in search[name.rstrip("0123456789")](solid.Shape.getElement(name))}

@@ -15,10 +15,15 @@ from . import compat, shapes
 _SIDES = {1: (4, 5, 6, 7), 2: (0, 1, 2, 3), 3: (1, 2, 5, 6), 4: (2, 3, 6, 7), 5: (0, 3, 4, 7), 6: (0, 1, 4, 5)}
 #: abscissas and weights of three Gauss points
 _GAUSS = ((-(0.6**0.5), 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9))
+#: what a force is spread over, by the type of the shape: kind of the mesh's elements there, and size of the shape
+_SPREAD = {"Face": ("Face", lambda face: face.Area), "Edge": ("Edge", lambda edge: edge.Length), "Vertex": ("Node", lambda vertex: 1.0)}
 
 
-def install():
-    """True if FreeCAD's writers ask our groups, from now on or before; False where this FreeCAD has other writers than those known here."""
+def install(grouped_shape):
+    """Has FreeCAD's writers ask our groups from now on; False where this FreeCAD has other writers than those known here. To be called once.
+
+    grouped_shape(mesh object): the shape whose faces Face1, Face2 ... the mesh has groups for; None where they are not to be asked.
+    """
     try:
         from femmesh.meshsetsgetter import MeshSetsGetter
     except ImportError:
@@ -26,10 +31,8 @@ def install():
     names = ("__init__", "get_constraints_force_nodeloads", "get_constraints_pressure_faces")
     if not all(hasattr(MeshSetsGetter, name) for name in names):
         return False
-    for name, wrapper in zip(names, (_with_groups, _whole_forces, _whole_pressures)):
-        original = getattr(MeshSetsGetter, name)
-        if not hasattr(original, "__wrapped__"):
-            setattr(MeshSetsGetter, name, wrapper(original))
+    for name, wrapper in zip(names, (functools.partial(_with_groups, grouped_shape), _whole_forces, _whole_pressures)):
+        setattr(MeshSetsGetter, name, wrapper(getattr(MeshSetsGetter, name)))
     return True
 
 
@@ -132,31 +135,26 @@ class _StandIn:
         return getattr(self._obj, name)
 
 
-def _with_groups(original):
+def _with_groups(grouped_shape, original):
     @functools.wraps(original)
     def __init__(self, *arguments, **named):
-        from . import objects
-
         original(self, *arguments, **named)
         obj = getattr(self, "mesh_object", None)
-        if not objects.is_polycube(obj):
-            return
-        part = objects.part_of(obj)
-        if part is None or not objects.shape_is_meshed(obj):
-            FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
-            return
-        self.femmesh = GroupedMesh(obj, shapes.solid_object(part).Shape)
-        self.mesh_object = _StandIn(obj, FemMesh=self.femmesh)
+        shape = grouped_shape(obj)
+        if shape is not None:
+            self.femmesh = GroupedMesh(obj, shape)
+            self.mesh_object = _StandIn(obj, FemMesh=self.femmesh)
 
     return __init__
 
 
 def _whole_forces(original):
-    """Even loads on faces and edges by the shape functions, scaled to the force: its whole arrives, however coarse the mesh."""
+    """Even loads on faces, edges and vertices by the shape functions, scaled to the force: its whole arrives, however coarse the mesh."""
     return _replaced(original, "cons_force", _fill_force)
 
 
 def _whole_pressures(original):
+    """Pressures on the sides of cells that the groups name: FreeCAD's search takes a side for one of a face if all its nodes are within 1e-7 mm."""
     return _replaced(original, "cons_pressure", _fill_pressure)
 
 
@@ -184,11 +182,12 @@ def _fill_force(mesh, member):
     force = member["Object"]
     found = []
     for obj, name, shape in _references(force):
-        elements = mesh.elements(shape, shape.ShapeType) if shape.ShapeType in ("Face", "Edge") else ()
+        kind, size = _SPREAD.get(shape.ShapeType, (None, None))
+        elements = mesh.elements(shape, kind)
         if not elements:
             return False
-        size = shape.Area if shape.ShapeType == "Face" else shape.Length
-        found.append(("node loads on shape: {}:{}".format(obj.Name, name), size, mesh.weights(elements)))
+        weights = dict.fromkeys(elements, 1.0) if kind == "Node" else mesh.weights(elements)
+        found.append(("node loads on shape: {}:{}".format(obj.Name, name), size(shape), weights))
     whole = sum(size for _, size, _ in found)
     member["NodeLoadTable"] = []
     for title, size, weights in found:

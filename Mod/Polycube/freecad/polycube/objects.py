@@ -55,7 +55,7 @@ def set_mesh(obj, result, options, meshed_shape):
     if not shape_is_meshed(obj):
         warnings.append("the part has changed while it was meshed: make the mesh again")
     elif analysis:
-        warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis)
+        warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis, GROUPS_ARE_ASKED)
     option_table.write(obj, options)
     quality = result.report["quality"]
     obj.FemMesh = mesh
@@ -90,6 +90,16 @@ def shape_is_meshed(obj):
     return shapes.same(list(obj.MeshedShape), shapes.signature(shape))
 
 
+def _grouped_shape(obj):
+    """For load_sets: the shape whose faces a mesh has groups for; None of meshes that are not ours or whose part has changed, with a warning then."""
+    if not is_polycube(obj):
+        return None
+    if not shape_is_meshed(obj):
+        FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
+        return None
+    return shapes.solid_object(part_of(obj)).Shape
+
+
 class Stateless:
     """A proxy that keeps nothing of its own in the document: all is in properties."""
 
@@ -112,7 +122,6 @@ class PolycubeMesh(Stateless):
     def __init__(self, obj):
         obj.Proxy = self
         self._add_properties(obj)
-        load_sets.install()
 
     def _add_properties(self, obj):
         if compat.needs_part_property(obj):
@@ -138,7 +147,6 @@ class PolycubeMesh(Stateless):
             self.execute(obj)
 
     def onDocumentRestored(self, obj):
-        load_sets.install()
         try:
             self._add_properties(obj)
         except ImportError as error:
@@ -148,15 +156,31 @@ class PolycubeMesh(Stateless):
 class _Moves:
     """Marks meshes whose part is moved by a container around it, or gets into another: FreeCAD recomputes what is linked to the container only."""
 
-    def slotChangedObject(self, container, name):
-        if name not in ("Placement", "Group", "ElementList") or container.Document.Restoring or not shapes.is_container(container):
+    def slotChangedObject(self, obj, name):
+        if obj.Document.Restoring:
             return
-        for document in FreeCAD.listDocuments().values():
-            for obj in filter(is_polycube, document.findObjects("Fem::FemMeshObject")):
+        if name == "Placement" and shapes.is_container(obj):
+            self._mark(FreeCAD.listDocuments().values(), lambda mesh: _is_inside(mesh, obj) or _is_inside(part_of(mesh), obj))
+        elif name == "ElementList" or (name == "Group" and shapes.is_container(obj)):
+            # What has left it is inside no more, and a group without links is no container any more. FreeCAD tells this of a deleted one too.
+            self._mark([obj.Document], lambda mesh: True)
+
+    @staticmethod
+    def _mark(documents, concerns):
+        for document in documents:
+            for obj in document.findObjects("Fem::FemMeshObject"):
+                if not is_polycube(obj) or not concerns(obj):
+                    continue
                 if not document.Recomputing:
                     obj.touch()
                 else:
                     obj.Proxy.execute(obj)  # its turn may be over
 
 
+def _is_inside(obj, container):
+    return obj is not None and container in obj.InListRecursive
+
+
+#: whether the solver writers of this FreeCAD ask the groups of our meshes
+GROUPS_ARE_ASKED = load_sets.install(_grouped_shape)
 FreeCAD.addDocumentObserver(_Moves())

@@ -1,7 +1,6 @@
 """What scripts call. No window needed."""
 
 from contextlib import contextmanager
-from numbers import Real
 
 from . import shapes
 from .errors import InvalidInput
@@ -36,8 +35,6 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
 def _run(what, shape, given, progress, log, cancel):
     from . import job
 
-    if "size" in given and not (isinstance(given["size"], Real) and given["size"] > 0):
-        raise InvalidInput("size {} is not a positive length in mm".format(given["size"]))
     shapes.check_solid(shape)
     with job.Job(shape, given, what) as work:
         return job.run(work, progress, log, cancel)

@@ -12,6 +12,9 @@ _FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder"}
 #: FreeCAD writes its own element types to the solver.
 _NOT_IN_FREECAD = {"element_type"}
 _ORDERS = ["1st", "2nd"]
+#: Types of options that may be given as text and are numbers.
+_NUMBERS = ("double", "int", "bool")
+_TRUTHS = {"true": True, "false": False}
 #: FreeCAD 0.20 has no property for times.
 _UNITS = {"mm": "App::PropertyLength", "degrees": "App::PropertyAngle"}
 #: What a quantity has to be for an option of this unit; the value that FreeCAD keeps inside is in the option's unit then.
@@ -38,34 +41,32 @@ def property_name(option):
     return _FAMILIAR.get(option["name"]) or "".join(word.capitalize() for word in option["name"].split("_"))
 
 
-def check_names(options):
-    """Raises InvalidInput for an option that does not exist."""
-    known = [option["name"] for option in table()]
-    for name in options:
+def plain(options):
+    """The options that are not None, as JSON can hold them: plain numbers in the option's unit, faces by name. InvalidInput for what cannot be read."""
+    known = {option["name"]: option for option in table()}
+    given = {name: value for name, value in options.items() if value is not None}
+    for name in given:
         if name not in known:
             raise InvalidInput("unknown option '{}'; options are {}".format(name, ", ".join(known)))
-
-
-def plain(options):
-    """The options that are not None, as JSON can hold them: quantities and numpy's numbers as plain ones in the option's unit, faces by name."""
-    options = {name: value for name, value in options.items() if value is not None}
-    check_names(options)
-    return {option["name"]: _plain(option, options[option["name"]]) for option in table() if option["name"] in options}
+    return {name: _plain(known[name], value) for name, value in given.items()}
 
 
 def _plain(option, value):
     name, kind = option["name"], option["type"]
-    if isinstance(value, str):
-        return value
+    if isinstance(value, str) and kind not in _NUMBERS:
+        return value  # as on the command line
     try:
         if kind == "labels":
             return {_face(face): str(axis) for face, axis in value.items()}
         if kind in ("sizes", "divisions"):
-            return {_face(what): amount if isinstance(amount, str) else _number(option, amount) for what, amount in value.items()}
+            return {_face(what): amount if isinstance(amount, str) and kind == "divisions" else _number(option, amount) for what, amount in value.items()}
         if kind == "faces":
             return [_face(face) for face in value]
         if kind == "frame":
-            return [[float(number) for number in axis] for axis in value]
+            first, second = value
+            return [[float(x), float(y), float(z)] for x, y, z in (first, second)]
+        if kind == "string":
+            raise TypeError
         return _number(option, value)
     except InvalidInput:
         raise
@@ -77,6 +78,7 @@ def _plain(option, value):
             "faces": 'faces such as ["Face3", "Face7"]',
             "frame": "a pair of directions such as ((1, 0, 0), (0, 1, 0))",
             "bool": "True or False",
+            "string": "one of " + ", ".join(option["choices"]),
         }
         raise InvalidInput("{} is not {}".format(name, wanted.get(kind, "a number"))) from None
 
@@ -91,15 +93,20 @@ def _face(face):
 
 
 def _number(option, value):
-    """A plain number of what may be a quantity; a TypeError for what is no number, InvalidInput for a quantity of another kind."""
+    """A plain number of what may be a quantity or text; TypeError or ValueError for what is no number, InvalidInput for a quantity of another kind."""
     if isinstance(value, FreeCAD.Units.Quantity):
         dimension, meaning = _DIMENSIONS[option["unit"]]
         # without a unit it is a number like any other
         if value.Unit not in (dimension, FreeCAD.Units.Unit()):
             raise InvalidInput("{}: {} is not {}".format(option["name"], value, meaning))
         value = value.Value
-    if option["type"] == "bool" and value in (True, False):
+    if option["type"] == "bool":
+        value = _TRUTHS.get(value, value) if isinstance(value, str) else value
+        if value not in (True, False):
+            raise TypeError
         return bool(value)
+    if isinstance(value, str):
+        value = float(value)
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError
     whole = isinstance(value, Integral) or (option["type"] != "double" and float(value).is_integer())

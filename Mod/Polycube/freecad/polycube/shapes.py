@@ -10,7 +10,6 @@ def shape_of(thing, beside=None):
 
     With `beside`, a document object, the coordinates are those of the container that this one is in: what is made of the shape stands right there.
     """
-    import FreeCAD
     import Part
 
     if not hasattr(thing, "Document"):

@@ -140,6 +140,15 @@ class MechanicalLoads(LoadTest):
                 for member in [*analysis.Group, analysis]:
                     self.document.removeObject(member.Name)
 
+    def test_pressure_on_both_faces_of_a_thin_wall(self):
+        """All nodes are on the two faces; the sides in between carry nothing."""
+        part = self.part(Part.makeBox(20, 20, 2))
+        analysis, _ = calculix.make_analysis(part, ["Face1"])
+        mesh = polycube.create_fem_mesh(part, size=5, order=1, analysis=analysis).FemMesh
+        self.assertEqual(len(mesh.Volumes), len(self.group(mesh, "Face5")))
+        self.add(analysis, "Pressure", part, "Face5", "Face6", Pressure=2.0)
+        self.assertEqual(len(solver_tests.pressure_faces(self.written(analysis))), 2 * len(mesh.Volumes))
+
     def test_a_document_that_is_opened_again(self):
         part, outer, _, ends = self.tube()
         analysis, solver = calculix.make_analysis(part, [ends[0]])
@@ -161,7 +170,7 @@ class MechanicalLoads(LoadTest):
         self.add(analysis, "Pressure", part, "Face2", Pressure=2.0)
         part.Shape = Part.makeBox(12, 10, 10)
         self.document.recompute()
-        with mock.patch.object(load_sets.FreeCAD.Console, "PrintWarning", create=True) as warn:
+        with mock.patch.object(FreeCAD.Console, "PrintWarning", create=True) as warn:
             path = self.written(analysis)
         self.assertTrue(any("has changed" in call.args[0] for call in warn.call_args_list))
         self.assertEqual(solver_tests.pressure_faces(path), [])

@@ -144,9 +144,10 @@ class ClosedWithoutAWord(GuiTest):
                     panel.form.colours.setChecked(True)
                     view, clicks = panel.obj.ViewObject, panel.clicks
                     self.assertTrue(view.HighlightedNodes)
-                    with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed, mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
-                        close()
-                        process_events()
+                    with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
+                        with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed:
+                            close()
+                            process_events()
                     self.assertEqual(error.call_args_list, [])
                     removed.assert_called_once_with()
                     self.assertIsNone(panel.form)

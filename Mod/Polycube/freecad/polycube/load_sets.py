@@ -1,13 +1,11 @@
 """FreeCAD's solver writers take the nodes and mesh faces of a constraint from the groups of a Polycube mesh.
 
 FreeCAD searches for them in space, within 1e-7 mm. That misses mid-edge nodes which could not be on the CAD, finds no sides of hexahedra for heat flux and
-section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. The groups know all of it, whenever the
-constraint was made. `install` puts them before the search, for our meshes only.
+section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. The groups know all of it, whenever
+the constraint was made. `install` puts them before the search, for our meshes only.
 """
 
 import functools
-
-import FreeCAD
 
 from . import compat, shapes
 
@@ -149,12 +147,12 @@ def _with_groups(grouped_shape, original):
 
 
 def _whole_forces(original):
-    """Even loads on faces, edges and vertices by the shape functions, scaled to the force: its whole arrives, however coarse the mesh."""
+    """Even loads on faces and edges by the shape functions, equal ones on vertices, scaled to the force: its whole arrives, however coarse the mesh."""
     return _replaced(original, "cons_force", _fill_force)
 
 
 def _whole_pressures(original):
-    """Pressures on the sides of cells that the groups name: FreeCAD's search takes a side for one of a face if all its nodes are within 1e-7 mm."""
+    """Pressures on the sides of cells on the CAD faces. FreeCAD takes all sides whose nodes are on the faces: of a wall of one linear cell those inside too."""
     return _replaced(original, "cons_pressure", _fill_pressure)
 
 

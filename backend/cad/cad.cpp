@@ -15,7 +15,7 @@ namespace polycube {
 namespace {
 
 std::shared_ptr<const CadModel::Shape> checked(const FileShape& read, bool sew, const Monitor& monitor) {
-  const Found found = find_solid(read, sew, monitor);
+  const FoundSolid found = find_solid(read, sew, monitor);
   try {
     const auto shape = catching_faults([&] { return describe(found.solid, found.numbers, monitor); });
     shape->warnings = read.warnings;

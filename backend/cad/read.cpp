@@ -1,5 +1,5 @@
 // Files and text to shapes, by their kind.
-#include <BRepTools.hxx>
+#include <BRepTools_ShapeSet.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -48,7 +48,12 @@ FileShape read_brep(std::istream& stream, const Monitor& monitor) {
   FileShape read;
   // At the end of a text cut short OCCT would read on forever; an exception ends that.
   stream.exceptions(std::ios::failbit | std::ios::badbit);
-  catching_faults([&] { BRepTools::Read(read.shape, stream, BRep_Builder(), progress->Start()); });
+  catching_faults([&] {
+    // As BRepTools::Read does it, which looks for the shape in what was read even where reading was stopped in the middle: a fault.
+    BRepTools_ShapeSet set{BRep_Builder()};
+    set.Read(stream, progress->Start());
+    if (!OcctProgress::stopped(monitor)) set.Read(read.shape, stream);
+  });
   monitor.check();
   return read;
 }

@@ -103,7 +103,7 @@ struct FileShape {
 };
 
 /// The solid of a shape as read. Its entities have the numbers of that whole shape.
-struct Found {
+struct FoundSolid {
   TopoDS_Shape solid;
   Numbering numbers;
   std::vector<std::string> warnings;
@@ -117,7 +117,7 @@ FileShape read_document(const std::string& path, const std::string& object, cons
 /// From BREP text; throws InvalidInput. The shape is not checked.
 FileShape parse_brep(const std::string& text, const Monitor& monitor);
 /// The shape's one solid, checked; or, if it has faces only and `sew_faces`, the solid that they sew to within the file's own tolerance. Throws InvalidInput.
-Found find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor);
+FoundSolid find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor);
 /// Throws InvalidInput unless the shape is a closed valid solid of positive volume.
 void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);
 /// Tables of a valid solid. Throws InvalidInput for what the tables cannot express (an edge of three faces).

@@ -201,7 +201,7 @@ TopoDS_Solid solid_of(const std::vector<TopoDS_Shell>& shells) {
 }
 
 /// The solid that the shape's faces sew to within the distance. Throws InvalidInput where there is none.
-Found sew(const FileShape& read, double distance, const Monitor& monitor) {
+FoundSolid sew(const FileShape& read, double distance, const Monitor& monitor) {
   BRepBuilderAPI_Sewing sewing(distance);
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(read.shape, TopAbs_FACE, faces);
@@ -234,7 +234,7 @@ Found sew(const FileShape& read, double distance, const Monitor& monitor) {
     throw InvalidInput(start + "it is open at " + name_of(numbers, 1, edges.FindIndex(open_edge)));
   }
   if (shells.empty()) throw InvalidInput(start + "no shell comes of it");
-  Found found{solid_of(shells), {}, {}};
+  FoundSolid found{solid_of(shells), {}, {}};
   found.numbers = numbering(read.shape, found.solid, became);
   found.warnings.push_back("the shape is no solid: its " + plural(count(found.solid, TopAbs_FACE), "face is", "faces are") + " sewn to one within " + number_text(distance) + " mm");
   const std::string left_out = beside(open_faces, count(read.shape, TopAbs_EDGE, TopAbs_FACE), count(read.shape, TopAbs_VERTEX, TopAbs_EDGE));
@@ -242,11 +242,11 @@ Found sew(const FileShape& read, double distance, const Monitor& monitor) {
   return found;
 }
 
-Found sew(const FileShape& read, const Monitor& monitor) {
+FoundSolid sew(const FileShape& read, const Monitor& monitor) {
   const std::vector<double> distances = sewing_distances(read);
   for (std::size_t i = 0;; ++i) {
     try {
-      Found found = sew(read, distances[i], monitor);
+      FoundSolid found = sew(read, distances[i], monitor);
       validate(found.solid, found.numbers, monitor);
       return found;
     } catch (const InvalidInput&) {
@@ -255,7 +255,7 @@ Found sew(const FileShape& read, const Monitor& monitor) {
   }
 }
 
-Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor& monitor) {
+FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor& monitor) {
   const TopoDS_Shape& shape = read.shape;
   if (shape.IsNull()) throw InvalidInput("the shape is empty");
   const int solids = count(shape, TopAbs_SOLID);
@@ -265,7 +265,7 @@ Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor&
     if (!sew_faces) throw InvalidInput("the shape is a shell or loose faces, not a solid");
     return sew(read, monitor);
   }
-  Found found{shape, {}, {}};
+  FoundSolid found{shape, {}, {}};
   const int edges = count(shape, TopAbs_EDGE, TopAbs_FACE), vertices = count(shape, TopAbs_VERTEX, TopAbs_EDGE);
   if (count(shape, TopAbs_FACE, TopAbs_SOLID) + edges + vertices > 0) {
     found.solid = TopExp_Explorer(shape, TopAbs_SOLID).Current();
@@ -280,7 +280,7 @@ Found find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor&
 
 }  // namespace
 
-Found find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor) {
+FoundSolid find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor) {
   try {
     return catching_faults([&] { return find_solid_unguarded(read, sew_faces, monitor); });
   } catch (const Standard_Failure& failure) {

@@ -29,7 +29,7 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, const Monit
     return outcome;
   };
   const Schedule schedule(keeping_plans(options, evaluator.label_order()), last_plans(), budget);
-  const Found found = search(schedule, budget, evaluate, searching);
+  const SearchResult found = search(schedule, budget, evaluate, searching);
   MeshResult result = evaluator.result(found.best);
   result.report.plan = found.plan.name;
   result.report.plans_tried = found.tried;

@@ -126,6 +126,17 @@ class PublicHeaders(unittest.TestCase):
                 for library, pattern in THIRD_PARTY.items():
                     self.assertIsNone(re.match(pattern, include), f"{header} includes {library}'s {include}")
 
+    def test_no_two_types_share_a_name(self):
+        """All stages share one namespace: of two types of one name the linker takes one's functions for both, and it takes no note of it."""
+        where = {}
+        for folder in sorted(os.listdir(BACKEND)):
+            for path in sources(folder, (".h", ".cpp")):
+                named = re.sub(r"^namespace \{$.*?^\}  // namespace$", "", read(path), flags=re.M | re.S)
+                for name in re.findall(r"^(?:template <.*>\s*)?(?:struct|class|enum class) (\w+)\b(?!::)[^;()]*?\{", named, flags=re.M):
+                    where.setdefault(name, set()).add(os.path.relpath(path, BACKEND))
+        self.assertGreater(len(where), 100)
+        self.assertEqual({name: paths for name, paths in where.items() if len(paths) > 1}, {})
+
     def test_pragma_once(self):
         for folder in sorted(os.listdir(BACKEND)):
             for path in sources(folder, (".h",)):

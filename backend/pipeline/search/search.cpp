@@ -165,7 +165,7 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done) c
   return {};
 }
 
-Found search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor) {
+SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor) {
   std::vector<Attempt> done;
   std::optional<std::size_t> best;
   bool out_of_time = false;

@@ -92,7 +92,7 @@ class Schedule {
 /// True where no other plan is worth trying.
 bool good_enough(const Score& score, int fits_done, const Budget& budget);
 
-struct Found {
+struct SearchResult {
   Outcome best;
   Plan plan;
   bool out_of_time = false;  ///< the deadline ended the search
@@ -101,6 +101,6 @@ struct Found {
 
 /// The best mesh. Throws what the plan that came furthest failed by; Cancelled where the user says so, or time is out before there is a mesh; InvalidInput of the
 /// first plan at once: it is about what the user demands.
-Found search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor);
+SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor);
 
 }  // namespace polycube

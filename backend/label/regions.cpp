@@ -96,6 +96,7 @@ RegionGraph build_region_graph(const TetMesh& mesh, const std::vector<int>& tria
     dart_of[{at, previous}] = 2 * id + 1;
     // Inner points in the other direction too, so that a closed chain is not walked twice.
     for (std::size_t i = 1; i + 1 < arc.nodes.size(); ++i) dart_of[{arc.nodes[i], arc.nodes[i - 1]}] = 2 * id + 1;
+    for (int node : arc.nodes) arc.cad_dim.push_back(node < std::ssize(mesh.point_cad) ? static_cast<char>(mesh.point_cad[node].dim) : 2);
     arc.angle = arc.length > 0 ? bend / arc.length : std::numbers::pi;
     if (junction_of.count(arc.nodes.front())) {
       arc.start = junction_of[arc.nodes.front()];

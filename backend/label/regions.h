@@ -17,6 +17,7 @@ struct Region {
 struct Arc {
   int left = 0, right = 0;
   std::vector<int> nodes;                ///< mesh points in order; first == last for a closed chain
+  std::vector<char> cad_dim;             ///< per node: 0 at a CAD vertex, 1 on a CAD edge, 2 inside a face
   double length = 0;                     ///< mm
   double angle = 0;                      ///< mean interior dihedral angle, radians
   double weight = 0;                     ///< cost per mm of a label change here

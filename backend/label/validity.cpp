@@ -102,17 +102,11 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
 
-// The values of a function along a chain at its ends and where it turns back; what lies between them reverses nothing.
-std::vector<double> course(const std::vector<Vec3>& points, const std::vector<int>& nodes, int axis) {
-  std::vector<double> result{points[nodes.front()][axis]};
-  for (std::size_t i = 1; i < nodes.size(); ++i) {
-    const double x = points[nodes[i]][axis];
-    const std::size_t n = result.size();
-    if (n > 1 && (result[n - 1] - result[n - 2]) * (x - result[n - 1]) >= 0) result.pop_back();
-    result.push_back(x);
-  }
-  return result;
-}
+// A CAD edge that goes back along the axis of its boundary at less than 60 degrees to it (guess): no map straightens that, however short it is. Smooth edges that pass their
+// turning point by a little run flat there.
+constexpr double kSteep = 0.5;
+// Of the noise, what such an edge must go back at least: rounding is no reversal.
+constexpr double kRealShare = 0.01;
 
 }  // namespace
 
@@ -281,33 +275,40 @@ class ViolationFinder::Check {
   }
 
   double value_at(int dart, int axis) const {
-    const auto& course = f_.course_[dart / 2][axis];
-    return dart % 2 == 0 ? course.front() : course.back();
+    const Course& course = f_.course_[dart / 2][axis];
+    return dart % 2 == 0 ? course.front().x : course.back().x;
   }
 
   // Along the darts [first, last) of a loop. To blame is what lies beside the boundary where it goes back.
   void count_reversals(const std::vector<int>& loop, std::size_t first, std::size_t last, int axis, double sign) {
-    double extreme = sign * value_at(loop[first], axis);
-    bool back = false;
+    double high = sign * value_at(loop[first], axis), before = high;
+    bool counted = false, steep = false;
     std::size_t turn = first, at = first;
-    const auto pass = [&](double value) {
+    const auto pass = [&](double value, bool steep_way) {
       const double x = sign * value;
-      if (x > extreme) {
-        extreme = x;
-        back = false;
+      if (x > high) {
+        high = x;
+        counted = steep = false;
         turn = at;
-      } else if (!back && extreme - x > f_.noise_) {
-        ++result_.turning_points;
-        for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
-        back = true;
+      } else {
+        steep = steep || (x < before && steep_way);
+        if (!counted && high - x > (steep ? kRealShare : 1) * f_.noise_) {
+          ++result_.turning_points;
+          for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
+          counted = true;
+        }
       }
+      before = x;
     };
     for (; at < last; ++at) {
-      const auto& course = f_.course_[loop[at] / 2][axis];
-      if (loop[at] % 2 == 0) {
-        std::for_each(course.begin(), course.end(), pass);
-      } else {
-        std::for_each(course.rbegin(), course.rend(), pass);
+      const Course& course = f_.course_[loop[at] / 2][axis];
+      const std::size_t count = course.size();
+      for (std::size_t i = 0; i < count; ++i) {
+        if (loop[at] % 2 == 0) {
+          pass(course[i].x, course[i].steep);
+        } else {
+          pass(course[count - 1 - i].x, i > 0 && course[count - i].steep);
+        }
       }
     }
   }
@@ -323,9 +324,24 @@ class ViolationFinder::Check {
   Violations result_;
 };
 
+ViolationFinder::Course ViolationFinder::course(const std::vector<Vec3>& points, const Arc& arc, int axis) {
+  Course result{{points[arc.nodes.front()][axis], false}};
+  for (std::size_t i = 1; i < arc.nodes.size(); ++i) {
+    const Vec3 step = points[arc.nodes[i]] - points[arc.nodes[i - 1]];
+    Place place{points[arc.nodes[i]][axis], arc.cad_dim[i - 1] < 2 && arc.cad_dim[i] < 2 && std::abs(step[axis]) > kSteep * step.norm()};
+    const std::size_t n = result.size();
+    if (n > 1 && (result[n - 1].x - result[n - 2].x) * (place.x - result[n - 1].x) >= 0) {  // what lies between two places reverses nothing
+      place.steep = place.steep || result[n - 1].steep;
+      result.pop_back();
+    }
+    result.push_back(place);
+  }
+  return result;
+}
+
 ViolationFinder::ViolationFinder(const RegionGraph& graph, const std::vector<Vec3>& points, double noise)
     : graph_(graph), noise_(noise), place_(2 * graph.arcs.size(), -1) {
-  for (const Arc& a : graph.arcs) course_.push_back({course(points, a.nodes, 0), course(points, a.nodes, 1), course(points, a.nodes, 2)});
+  for (const Arc& a : graph.arcs) course_.push_back({course(points, a, 0), course(points, a, 1), course(points, a, 2)});
   for (const Junction& j : graph.junctions) {
     for (std::size_t i = 0; i < j.darts.size(); ++i) place_[j.darts[i]] = static_cast<int>(i);
   }

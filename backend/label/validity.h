@@ -21,7 +21,8 @@ struct Violations {
 /// For many labellings of one graph: what does not depend on the labels is worked out once. Safe to use from several threads.
 class ViolationFinder {
  public:
-  /// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count. Holds a reference to `graph`.
+  /// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count, but for those that run steeply
+  /// along CAD edges. Holds a reference to `graph`.
   ViolationFinder(const RegionGraph& graph, const std::vector<Vec3>& points, double noise);
 
   Violations find(const std::vector<int>& region_label) const;
@@ -32,7 +33,16 @@ class ViolationFinder {
   class Check;
   const RegionGraph& graph_;
   double noise_;
-  std::vector<std::array<std::vector<double>, 3>> course_;  // per arc and axis: coordinates at both ends and where the arc turns back between
+  /// A place on a boundary, as seen along one axis.
+  struct Place {
+    double x = 0;
+    bool steep = false;  // the way from the place before runs steeply along the axis on a CAD edge
+  };
+  /// The ends of a chain of nodes, and where it turns back along an axis between.
+  using Course = std::vector<Place>;
+  static Course course(const std::vector<Vec3>& points, const Arc& arc, int axis);
+
+  std::vector<std::array<Course, 3>> course_;  // per arc and axis
   std::vector<int> place_;                                  // per dart: index among those of the junction where it starts
 };
 

@@ -288,6 +288,45 @@ std::string drilled_block() {
   return text(TopExp_Explorer(BRepAlgoAPI_Fuse(half(0, 10), half(10, 20)).Shape(), TopAbs_SOLID).Current());
 }
 
+std::string machined_box(double size, const std::vector<Prism>& cuts) {
+  TopoDS_Shape result = block({0, 0, 0}, {size, size, size});
+  for (const Prism& cut : cuts) {
+    BRepBuilderAPI_MakePolygon polygon;
+    for (const auto& [u, v] : cut.corners) {
+      std::array<double, 3> at{};
+      at[cut.axis] = cut.from;
+      at[(cut.axis + 1) % 3] = u;
+      at[(cut.axis + 2) % 3] = v;
+      polygon.Add({at[0], at[1], at[2]});
+    }
+    polygon.Close();
+    std::array<double, 3> along{};
+    along[cut.axis] = cut.to - cut.from;
+    const TopoDS_Shape cutter = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(polygon.Wire()).Face(), gp_Vec(along[0], along[1], along[2])).Shape();
+    result = BRepAlgoAPI_Cut(result, cutter).Shape();
+  }
+  return text(solid(result));
+}
+
+std::string hole_through_slot() {
+  std::vector<std::array<double, 2>> hexagon;
+  for (int k = 0; k < 6; ++k) {
+    const double angle = (4.6 + 60 * k) * std::numbers::pi / 180;
+    hexagon.push_back({12.6 + 2 * std::cos(angle), 14.7 + 2 * std::sin(angle)});
+  }
+  return machined_box(20, {{1, {{2, 10}, {6, 10}, {6, 14}, {2, 14}}, -1, 21}, {2, hexagon, -1, 21}});
+}
+
+std::string slots_through_hole() {
+  return machined_box(20, {{0, {{13.6, 9.1}, {6.4, 3.6}, {5.9, 13.5}}, -1, 21}, {1, {{7.9, 2.9}, {13.8, 2.9}, {13.8, 7.5}, {7.9, 7.5}}, -1, 21}});
+}
+
+std::string hole_past_chamfer(double past, double wider) {
+  const double leg = 5.544, tip = leg + past;
+  return machined_box(20, {{1, {{20 - leg, -.01}, {20.01, leg + .01}, {20.01, -.01}}, -1, 21},
+                           {2, {{tip, 6.746}, {tip - 3.1, 7.87}, {tip - 1.1, 10.346 + wider}}, -1, 21}});
+}
+
 std::string moved(const std::string& brep, double degrees, double x, double y, double z) {
   gp_Trsf turn, shift;
   turn.SetRotation(gp_Ax1({0, 0, 0}, {1, 2, 3}), degrees * std::numbers::pi / 180);

@@ -1,7 +1,9 @@
 // Small solids for tests, made by OCCT, as BREP text for CadModel::from_brep. Lengths in mm.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 namespace polycube::shapes {
 
@@ -33,6 +35,17 @@ std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it
 std::string oblique_bore();   ///< box of 20 x 14 x 12, a bore 20 degrees off Z comes out of its side x = 20 and leaves a wedge there
 std::string box_with_square(double x, double y, double z, double from, double to);  ///< a square from (from, from) to (to, to) drawn on its top
 std::string drilled_block();  ///< 20 x 20 x 16, a hole of radius 1.2 with a drill's tip from above; cut in two at y = 10 and put together: its faces are halves
+
+/// A cutter: a polygon across one axis, its corners by the two axes that follow (of y: z and x), drawn out along it.
+struct Prism {
+  int axis = 2;
+  std::vector<std::array<double, 2>> corners;
+  double from = 0, to = 0;
+};
+std::string machined_box(double size, const std::vector<Prism>& cuts);  ///< cube with a corner at the origin, less the cuts
+std::string hole_through_slot();  ///< cube of 20, a slot along Y, a hexagonal hole along Z that breaks through its wall: two tips of 25 degrees on the slot's floor and ceiling
+std::string slots_through_hole(); ///< cube of 20, a triangular hole along X, a slot along Y through its edge
+std::string hole_past_chamfer(double past, double wider);  ///< cube of 20, a chamfer, a triangular hole along Z (wider at its far end) whose edge is past the chamfer's
 
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).
 std::string moved(const std::string& brep, double degrees, double x, double y, double z);

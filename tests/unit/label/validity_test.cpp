@@ -116,6 +116,28 @@ TEST(Validity, ABoundaryThatGoesDownAndUpAgainHasATurningPoint) {
   EXPECT_GT(violations(v, wrong).turning_points, 0);
 }
 
+TEST(Validity, ABoundaryThatGoesBackAlongACadEdgeHasATurningPointHoweverShortTheWay) {
+  // The same U, its arms far shorter than what counts elsewhere.
+  Voxels v = voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 0, 1}});
+  std::vector<int> wrong = v.label;
+  const RegionGraph plain = build_region_graph(v.mesh, v.region);
+  for (std::size_t r = 0; r < wrong.size(); ++r) {
+    Vec3 centre = Vec3::Zero();
+    for (int n : v.mesh.triangles[plain.regions[r].triangles[0]]) centre += v.mesh.points[n] / 3;
+    if (centre[0] > 0.9 && centre[0] < 2.1 && centre[2] > 0.9 && wrong[r] != 2 && wrong[r] != 3) wrong[r] = 0;
+  }
+  for (Vec3& p : v.mesh.points) p *= 0.01;
+  EXPECT_EQ(find_violations(plain, v.mesh.points, wrong, 0.1).turning_points, 0);
+  v.mesh.point_cad.assign(v.mesh.points.size(), {2, 1});
+  for (const Arc& arc : plain.arcs) {
+    for (int n : arc.nodes) v.mesh.point_cad[n] = {1, 1};
+  }
+  for (const Junction& j : plain.junctions) v.mesh.point_cad[j.node] = {0, 1};
+  const RegionGraph cad = build_region_graph(v.mesh, v.region);
+  EXPECT_GT(find_violations(cad, v.mesh.points, wrong, 0.1).turning_points, 0);
+  EXPECT_EQ(find_violations(cad, v.mesh.points, v.label, 0.1).score, 0);
+}
+
 TEST(Validity, AllAlongTheWayBackIsToBlameForATurningPoint) {
   // The same U with one arm longer, so that it is clear which way its boundary should go.
   const Voxels v = voxels({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 0, 1}, {2, 0, 2}});

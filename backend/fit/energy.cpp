@@ -104,6 +104,12 @@ double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::ar
   return value;
 }
 
+// The two edges of the corner over their wanted lengths.
+std::array<Vec3, 2> sides(const SkinCorner& corner, const std::vector<Vec3>& points) {
+  const Vec3& x = points[corner.nodes[0]];
+  return {(points[corner.nodes[1]] - x) / corner.lengths[0], (points[corner.nodes[2]] - x) / corner.lengths[1]};
+}
+
 double dot(const std::vector<Vec3>& x, const std::vector<Vec3>& y, int threads) {
   const int count = static_cast<int>(x.size());
   std::vector<double> partial((count + 8 * kChunk - 1) / (8 * kChunk));
@@ -172,7 +178,7 @@ class History {
 Descent::Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor)
     : mesh_(mesh), graph_(graph), entities_(entities), threads_(threads), monitor_(monitor), slot_(mesh.hexes.size(), -1), node_slot_(mesh.points.size(), -1) {}
 
-double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& region) const {
+double Descent::min_determinant(const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<SkinCorner>& skin) const {
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk, kInfinity);
   for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
@@ -183,11 +189,16 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const Region& 
       partial[chunk] = std::min(partial[chunk], 8 * least_inner_determinant(mesh_.points, mesh_.hexes[h]) / targets[h].prod());  // of [-1, 1]^3
     }
   });
-  return partial.empty() ? kInfinity : *std::min_element(partial.begin(), partial.end());
+  double least = partial.empty() ? kInfinity : *std::min_element(partial.begin(), partial.end());
+  for (const SkinCorner& corner : skin) {
+    const auto [first, second] = sides(corner, mesh_.points);
+    least = std::min(least, first.cross(second).dot(corner.normal));
+  }
+  return least;
 }
 
-double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                         const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient) {
+double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<Turn>& turns,
+                         const std::vector<SkinCorner>& skin, const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient) {
   static const std::array<Derivatives, 27> inner = inner_derivatives();
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk);
@@ -240,6 +251,17 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       gradient[i] = entities_.along(v, sum, steps[i]);
     }
   });
+  for (const SkinCorner& corner : skin) {
+    const auto [first, second] = sides(corner, points);
+    std::array<Vec3, 3> by;
+    total += corner_energy({energy.shape, 0, 1, 0, energy.eps}, {first, second, corner.normal}, by);
+    if (!(total < kInfinity)) return kInfinity;
+    const std::array<Vec3, 3> slopes{-by[0] / corner.lengths[0] - by[1] / corner.lengths[1], by[0] / corner.lengths[0], by[1] / corner.lengths[1]};
+    for (int k = 0; k < 3; ++k) {
+      const int slot = node_slot_[corner.nodes[k]];
+      if (slot >= 0) gradient[slot] += entities_.along(corner.nodes[k], slopes[k], steps[slot]);
+    }
+  }
   const int power = std::max(2, energy.power);
   for (const Turn& turn : turns) {
     const std::array<int, 2> slots{node_slot_[turn.nodes[0]], node_slot_[turn.nodes[1]]};
@@ -257,8 +279,8 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
   return total;
 }
 
-DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                           int max_iterations) {
+DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<Turn>& turns,
+                           const std::vector<SkinCorner>& skin, int max_iterations) {
   for (std::size_t i = 0; i < region.hexes.size(); ++i) slot_[region.hexes[i]] = static_cast<int>(i);
   corner_gradient_.resize(24 * region.hexes.size());
   const std::size_t count = region.nodes.size();
@@ -273,7 +295,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
   const std::vector<Vec3> start = mesh_.points;
   std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points, steps(count, Vec3::Zero()), trial_steps(count);
   DescentResult result;
-  result.start_energy = result.energy = evaluate(energy, targets, region, turns, mesh_.points, steps, gradient);
+  result.start_energy = result.energy = evaluate(energy, targets, region, turns, skin, mesh_.points, steps, gradient);
   History history(sizes, threads_);
   while (result.energy < kInfinity && result.iterations < max_iterations) {
     monitor_.check();
@@ -299,7 +321,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
         trial_steps[i] = steps[i] + step * direction[i];
         moved[region.nodes[i]] = start[region.nodes[i]] + entities_.bent(region.nodes[i], trial_steps[i]);
       }
-      value = evaluate(energy, targets, region, turns, moved, trial_steps, trial_gradient);
+      value = evaluate(energy, targets, region, turns, skin, moved, trial_steps, trial_gradient);
       if (value <= result.energy + 1e-4 * step * slope) break;
       value = kInfinity;
     }

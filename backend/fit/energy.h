@@ -26,7 +26,7 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 /// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
 /// Watched hexes are summed at their integration points too: there an element is judged, and good corners do not vouch for it.
 /// With a floor, a corner adds right / floor^2 * (floor / scaled Jacobian)^16: no cell near the floor gets worse for the sake of the others.
-/// Turns of mesh edges on curved CAD edges add powers of their angle.
+/// Turns of mesh edges on curved CAD edges add powers of their angle, corners of the skin what corners of hexes do.
 struct Energy {
   double shape = 1;
   double right = 0;
@@ -35,7 +35,7 @@ struct Energy {
   double eps = 0;    ///< 0: a barrier, infinite where D <= 0
 };
 
-struct Region {
+struct CellRegion {
   std::vector<int> hexes;  ///< over which is summed, ascending
   std::vector<int> nodes;  ///< that may move, ascending
   std::vector<char> watched{};  ///< per hex of `hexes`; empty: none
@@ -50,6 +50,14 @@ struct Turn {
   double angle = 0;            ///< radians
 };
 
+/// A corner of a boundary quad, as if a cell of height 1 stood on it: positive hexes alone let a face's nodes slide out over its border, and projection takes them back to where
+/// the hexes are inverted.
+struct SkinCorner {
+  std::array<int, 3> nodes{};       ///< the corner and its neighbours in the quad, counter-clockwise seen from outside
+  std::array<double, 2> lengths{};  ///< wanted, mm
+  Vec3 normal;                      ///< of the CAD face
+};
+
 struct DescentResult {
   double energy = 0;
   double start_energy = 0;
@@ -62,14 +70,14 @@ class Descent {
  public:
   Descent(HexMesh& mesh, const HexGraph& graph, const Entities& entities, int threads, const Monitor& monitor);
 
-  DescentResult run(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                    int max_iterations);
-  /// Smallest det J of the region.
-  double min_determinant(const std::vector<Vec3>& targets, const Region& region) const;
+  DescentResult run(const Energy& energy, const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<Turn>& turns,
+                    const std::vector<SkinCorner>& skin, int max_iterations);
+  /// Smallest det J of the region and the skin.
+  double min_determinant(const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<SkinCorner>& skin) const;
 
  private:
-  double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const Region& region, const std::vector<Turn>& turns,
-                  const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient);
+  double evaluate(const Energy& energy, const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<Turn>& turns,
+                  const std::vector<SkinCorner>& skin, const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient);
 
   HexMesh& mesh_;
   const HexGraph& graph_;

@@ -36,6 +36,8 @@ class Entities {
   double turned(int node, const Vec3& step) const;
   /// Boundary nodes, ascending.
   const std::vector<int>& boundary() const { return boundary_; }
+  /// Outward normal of the CAD face at a patch node's last projection.
+  const Vec3& normal(int node) const { return frames_[node]; }
   /// CAD face a patch node stands on, 0 for others.
   int face(int node) const { return faces_[node]; }
 

@@ -110,6 +110,7 @@ class Fitting {
     whole_.hexes.resize(mesh.hexes.size());
     std::iota(whole_.hexes.begin(), whole_.hexes.end(), 0);
     whole_.nodes = movable(whole_.hexes);
+    find_quad_hexes();
   }
 
   // The first rounds, after which it is to be seen what will come of it.
@@ -150,13 +151,20 @@ class Fitting {
       restore();
       untangle(around(0, layers), 50);
     }
+    // Nodes of faces may want to slide out over the border.
+    with_skin_ = true;
+    for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
+      restore();
+      untangle(around(0, layers), 50);
+    }
     // A few cells that resist get another start: their surroundings smoothed flat.
     for (int layers = 2; score_.inverted > 0 && score_.inverted <= kFew && layers <= 6; layers += 2) {
       restore();
-      const Region region = around(0, layers);
+      const CellRegion region = around(0, layers);
       smooth(region);
       untangle(region, 50);
     }
+    with_skin_ = false;
     restore();
     monitor_.progress("fit", 0.5);
     if (score_.inverted == 0) {
@@ -211,23 +219,23 @@ class Fitting {
   }
 
   // The same where only nodes of the region have moved since.
-  void restore(const Region& region) {
+  void restore(const CellRegion& region) {
     for (int v : region.nodes) mesh_.points[v] = best_[v];
     entities_.project(mesh_.points, &region.nodes);
   }
 
   // The cells with a scaled Jacobian of at most `limit` and some layers round them; nodes on the rim stay.
-  Region around(double limit, int layers) const {
+  CellRegion around(double limit, int layers) const {
     std::vector<int> bad;
     for (int h : whole_.hexes) {
       if (scaled_jacobian(mesh_.points, mesh_.hexes[h]) <= limit) bad.push_back(h);
     }
     return around(std::move(bad), layers);
   }
-  Region around(std::vector<int> front, int layers) const {
+  CellRegion around(std::vector<int> front, int layers) const {
     std::vector<char> in(mesh_.hexes.size(), 0);
     for (int h : front) in[h] = 1;
-    Region region;
+    CellRegion region;
     for (int layer = 0; layer < layers; ++layer) {
       std::vector<int> next;
       for (int h : front) {
@@ -254,7 +262,7 @@ class Fitting {
 
   // Takes the nodes of patches and the inside to the mean of their neighbours, those of patches to the mean of their neighbours on the
   // boundary.
-  void smooth(const Region& region) {
+  void smooth(const CellRegion& region) {
     constexpr int kRounds = 10;
     std::vector<int> nodes = region.nodes;
     std::erase_if(nodes, [&](int v) { return entities_.dimension(v) < 2; });
@@ -279,27 +287,64 @@ class Fitting {
     }
   }
 
+  void find_quad_hexes() {
+    for (const Quad& quad : association_.quads) {
+      const auto has_all = [&](int corner) {
+        const Hex& hex = mesh_.hexes[corner / 8];
+        return std::all_of(quad.begin(), quad.end(), [&](int v) { return std::find(hex.begin(), hex.end(), v) != hex.end(); });
+      };
+      const auto begin = graph_.corners.begin() + graph_.first[quad[0]], end = graph_.corners.begin() + graph_.first[quad[0] + 1];
+      quad_hex_.push_back(*std::find_if(begin, end, has_all) / 8);
+    }
+  }
+
+  // The corners of the region's boundary quads, where they lie on one CAD face and not between two CAD edges: the CAD holds those.
+  std::vector<SkinCorner> skin(const std::vector<Vec3>& targets, const CellRegion& region) const {
+    std::vector<SkinCorner> corners;
+    for (std::size_t q = 0; q < association_.quads.size(); ++q) {
+      if (association_.patches[association_.quad_patch[q]].size() != 1 || !std::binary_search(region.hexes.begin(), region.hexes.end(), quad_hex_[q])) continue;
+      const Quad& quad = association_.quads[q];
+      const Hex& hex = mesh_.hexes[quad_hex_[q]];
+      const auto wanted = [&](int a, int b) {
+        const auto& c = kCornerCoordinates[std::find(hex.begin(), hex.end(), a) - hex.begin()];
+        const auto& d = kCornerCoordinates[std::find(hex.begin(), hex.end(), b) - hex.begin()];
+        int axis = 0;
+        while (c[axis] == d[axis]) ++axis;
+        return targets[quad_hex_[q]][axis];
+      };
+      for (int k = 0; k < 4; ++k) {
+        const int at = quad[k], next = quad[(k + 1) % 4], previous = quad[(k + 3) % 4];
+        const auto inside = [&](int v) { return entities_.dimension(v) == 2; };
+        if (!inside(at) && !inside(next) && !inside(previous)) continue;
+        const int normal_at = inside(at) ? at : inside(next) ? next : previous;
+        corners.push_back({{at, next, previous}, {wanted(at, next), wanted(at, previous)}, entities_.normal(normal_at)});
+      }
+    }
+    return corners;
+  }
+
   // Foldover-free energy with eps driven to 0 as the worst determinant rises (Garanzha et al. 2021, section 3).
   // Stops where neither the worst determinant nor the mesh has become better for some rounds.
-  void untangle(const Region& region, int iterations) {
+  void untangle(const CellRegion& region, int iterations) {
     Untangling from_nothing;
     untangle(region, iterations, from_nothing, options_.max_rounds);
   }
 
   // Goes on from `state` up to so many rounds in all.
-  void untangle(const Region& region, int iterations, Untangling& state, int max_rounds) {
+  void untangle(const CellRegion& region, int iterations, Untangling& state, int max_rounds) {
     constexpr int kPatience = 6;
     auto& [energy, deepest, round, idle, done] = state;
     for (; !done && round < max_rounds && idle < kPatience; ++round, ++idle) {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-      const double least = std::min(descent_.min_determinant(targets, region), 0.0);
+      const std::vector<SkinCorner> corners = with_skin_ ? skin(targets, region) : std::vector<SkinCorner>{};
+      const double least = std::min(descent_.min_determinant(targets, region, corners), 0.0);
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
-      const DescentResult result = descent_.run(energy, targets, region, chains_.turns(mesh_.points, entities_), iterations);
+      const DescentResult result = descent_.run(energy, targets, region, chains_.turns(mesh_.points, entities_), corners, iterations);
       entities_.project(mesh_.points);
       chains_.keep_order(mesh_.points, entities_);
       const bool improved = note_if_best();
       monitor_.progress("fit", 0.15 + 0.35 * round / options_.max_rounds);
-      const double reached = descent_.min_determinant(targets, region);
+      const double reached = descent_.min_determinant(targets, region, corners);
       if (improved || reached > deepest + 0.01 * std::abs(deepest)) idle = 0;
       deepest = std::max(deepest, reached);
       const double gain = 1 - result.energy / result.start_energy;
@@ -327,7 +372,7 @@ class Fitting {
   }
 
   // The same region, with an eye on the inside of doubtful cells.
-  Region watching(Region region) const {
+  CellRegion watching(CellRegion region) const {
     for (int h : region.hexes)
       region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
     return region;
@@ -335,10 +380,10 @@ class Fitting {
 
   // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as
   // before.
-  bool square_up(const Region& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
+  bool square_up(const CellRegion& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
     const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region,
-                                              chains_.turns(mesh_.points, entities_), iterations);
+                                              chains_.turns(mesh_.points, entities_), {}, iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points, &region.nodes);
     monitor_.check();
@@ -417,10 +462,12 @@ class Fitting {
   Chains chains_;
   Entities entities_;
   Descent descent_;
-  Region whole_;
+  CellRegion whole_;
   std::vector<Vec3> best_;
   Score score_;
   Untangling start_;                                       // of the whole mesh
+  std::vector<int> quad_hex_;                              // per boundary quad: the hex it is a side of
+  bool with_skin_ = false;                                 // untangling looks at boundary quads too
   bool watching_ = false;                                  // cells were inverted inside, and are no more
   double held_ = std::numeric_limits<double>::infinity();  // while polishing: a worst cell above this is no gain
 };

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kBadSector = 0.9;  // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
+constexpr double kFlat = 500;  // half of what a flat cell costs
+constexpr double kStraightAngle = 175 * kPi / 180;  // measured: at corners of 169 degrees between arcs a sheet round the node alone makes the cells beside it worse (i09)
 constexpr double kLeastGain = 0.3;
 constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
 constexpr int kReach = 4;                   // border nodes on each side of a bad one, for the shortest sheets
@@ -210,6 +212,16 @@ std::vector<int> band_of(const TrialMesh& whole, int patch, const Stretch& stret
   return band;
 }
 
+// One quad in a straight angle. The chords of curved edges leave it less: such a quad is poor, not lost.
+bool is_lost(const TrialMesh& whole, const Sector& sector) {
+  const auto& [mesh, association] = whole.padded;
+  const CadRef& at = association.point_cad[sector.node];
+  if (sector.quads > 1 || sector.angle < kStraightAngle) return false;
+  if (at.dim != 1) return true;
+  const auto tangent = [&](int node) { return whole.model.edge_tangent(at.id, whole.model.project_to_edge(at.id, mesh.points[node]).t); };
+  return tangent(sector.first).dot(tangent(sector.last)) > std::cos(kStraight);
+}
+
 // The best sheet for a bad sector; no hexes if none gains.
 Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::vector<Sector>& sectors, int bad) {
   const int patch = sectors[bad].patch;
@@ -219,22 +231,28 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
   }
   Candidate best;
   best.gain = kLeastGain;
-  const auto consider = [&](const Stretch& stretch, const std::vector<int>& band) {
+  const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap) {
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
-    if (rate(whole, patch, candidate) && candidate.gain > best.gain) best = std::move(candidate);
+    if (rate(whole, patch, candidate) && candidate.gain > best.gain + handicap) best = std::move(candidate);
   };
   for (const Stretch& stretch : border.stretches(bad)) {
     const auto band = band_of(whole, patch, stretch);
-    consider(stretch, band);
-    if (all.size() <= 4 * band.size()) consider(stretch, all);
+    consider(stretch, band, 0);
+    if (all.size() <= 4 * band.size()) consider(stretch, all, 0);
     const Stretch shorter = trimmed(stretch);
-    if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter));
+    if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter), 0);
     for (int reach = 2; reach <= kReach; ++reach) {
       if (2 * reach + 1 >= static_cast<int>(stretch.nodes.size())) break;
       const Stretch part = window(stretch, sectors[bad].node, reach);
-      consider(part, band_of(whole, patch, part));
+      consider(part, band_of(whole, patch, part), 0);
     }
+  }
+  // Round one node alone, where longer sheets leave a cell flat: they take cells from a corner that is two cells away.
+  for (const Stretch& stretch : border.stretches(bad)) {
+    if (stretch.nodes.size() < 4 || !is_lost(whole, sectors[bad])) continue;
+    const Stretch part = window(stretch, sectors[bad].node, 1);
+    consider(part, band_of(whole, patch, part), kFlat);
   }
   return best;
 }

@@ -107,7 +107,7 @@ bool better(const Score& a, const Score& b) {
 }
 
 bool good_cells(const Score& score) {
-  return score.least >= kGoodScaledJacobian || (score.least >= kGoodScaledJacobian / 2 && score.free_least >= kGoodScaledJacobian);
+  return score.least >= kGoodScaledJacobian || score.free_least >= kGoodScaledJacobian;
 }
 
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {

@@ -27,14 +27,14 @@ void descend(testing::Grid& grid, const Energy& energy, const std::vector<Turn>&
   Entities entities(model, grid.association, 1);
   entities.project(grid.mesh.points);
   const std::vector<Vec3> targets(grid.mesh.hexes.size(), Vec3::Constant(0.25));
-  Region whole;
+  CellRegion whole;
   whole.hexes.resize(grid.mesh.hexes.size());
   std::iota(whole.hexes.begin(), whole.hexes.end(), 0);
   for (int v = 0; v < static_cast<int>(grid.mesh.points.size()); ++v) {
     if (entities.dimension(v) != 0) whole.nodes.push_back(v);
   }
   const Monitor monitor;
-  Descent(grid.mesh, graph, entities, 1, monitor).run(energy, targets, whole, turns, iterations);
+  Descent(grid.mesh, graph, entities, 1, monitor).run(energy, targets, whole, turns, {}, iterations);
 }
 
 // A box whose layers of cells along x are 0.01, 0.49, 0.25, ... thick: every cell has the best scaled Jacobian there is.
@@ -81,9 +81,9 @@ struct Box {
 TEST(Descent, AFloorCostsAsItsFormulaSays) {
   Box box;
   auto& [grid, model, graph, entities, targets, monitor] = box;
-  const Region whole{{0}, {}};
+  const CellRegion whole{{0}, {}};
   const auto energy = [&](double floor) {
-    return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, 0).energy;
+    return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, {}, 0).energy;
   };
   // At right angles (scaled Jacobian 1) the eight corners add 1 / floor^2 * floor^16 each.
   EXPECT_NEAR(energy(0.5) - energy(0), 8 * std::pow(0.5, 14), 1e-12);
@@ -96,7 +96,7 @@ TEST(Descent, WatchedCellsAreLookedAtInside) {
   auto& [grid, model, graph, entities, targets, monitor] = box;
   const std::array<Vec3, 8> hollow{Vec3(0.74, 0.09, 0.29), Vec3(1.28, -0.21, 0.67), Vec3(1.06, 1.6, 0.34),  Vec3(0.05, 1.5, 0.61),
                                    Vec3(0.57, -0.03, 0.77), Vec3(0.63, -0.01, 0.78), Vec3(1.11, 1.61, 0.37), Vec3(1.23, 1.12, 2.01)};
-  Region region;
+  CellRegion region;
   for (int h = 0; h < static_cast<int>(grid.mesh.hexes.size()); ++h) {
     const Hex& hex = grid.mesh.hexes[h];
     if (std::any_of(hex.begin(), hex.end(), [&](int v) { return entities.dimension(v) < 3; })) continue;
@@ -106,20 +106,20 @@ TEST(Descent, WatchedCellsAreLookedAtInside) {
   }
   ASSERT_EQ(region.hexes.size(), 1u);
   std::sort(region.nodes.begin(), region.nodes.end());
-  Region watched = region;
+  CellRegion watched = region;
   watched.watched = {1};
   Descent descent(grid.mesh, graph, entities, 1, monitor);
   EXPECT_GT(scaled_jacobian(grid.mesh.points, grid.mesh.hexes[region.hexes[0]]), 0.4);
-  EXPECT_GT(descent.min_determinant(targets, region), 0);
-  EXPECT_LT(descent.min_determinant(targets, watched), 0);
-  EXPECT_TRUE(std::isfinite(descent.run({0, 1, 2}, targets, region, {}, 0).energy));
-  EXPECT_FALSE(std::isfinite(descent.run({0, 1, 2}, targets, watched, {}, 0).energy));
+  EXPECT_GT(descent.min_determinant(targets, region, {}), 0);
+  EXPECT_LT(descent.min_determinant(targets, watched, {}), 0);
+  EXPECT_TRUE(std::isfinite(descent.run({0, 1, 2}, targets, region, {}, {}, 0).energy));
+  EXPECT_FALSE(std::isfinite(descent.run({0, 1, 2}, targets, watched, {}, {}, 0).energy));
   Energy energy;
   energy.eps = 0.1;
-  descent.run(energy, targets, watched, {}, 200);
-  EXPECT_GT(descent.min_determinant(targets, watched), 0);
+  descent.run(energy, targets, watched, {}, {}, 200);
+  EXPECT_GT(descent.min_determinant(targets, watched, {}), 0);
   energy.eps = 0;
-  descent.run(energy, targets, watched, {}, 200);
+  descent.run(energy, targets, watched, {}, {}, 200);
   EXPECT_GT(scaled_jacobian(grid.mesh.points, grid.mesh.hexes[region.hexes[0]]), 0.999);
 }
 
@@ -146,6 +146,32 @@ TEST(Entities, StepsBendWithTheCad) {
     }
   }
   EXPECT_GT(tried, 20);
+}
+
+// A node of a face beyond the face's border, where no hex is inverted: the hexes beside it have room on the other side of the edge.
+TEST(Descent, TheSkinKeepsNodesOfAFaceInsideItsBorder) {
+  Box box;
+  auto& [grid, model, graph, entities, targets, monitor] = box;
+  // The middle of the part's edge along z on x = y = 0, and its neighbour on the face y = 0.
+  const auto node_at = [&](const Vec3& p) {
+    const auto it = std::find_if(grid.mesh.points.begin(), grid.mesh.points.end(), [&](const Vec3& q) { return (p - q).norm() < 1e-9; });
+    return static_cast<int>(it - grid.mesh.points.begin());
+  };
+  const double h = 1.0 / 3;
+  const int edge = node_at({0, 0, h}), next = node_at({h, 0, h}), above = node_at({0, 0, 2 * h});
+  ASSERT_LT(std::max({edge, next, above}), static_cast<int>(grid.mesh.points.size()));
+  const std::vector<SkinCorner> skin{{{edge, next, above}, {h, h}, Vec3(0, -1, 0)}};
+  CellRegion region;
+  region.nodes = {next};
+  Descent descent(grid.mesh, graph, entities, 1, monitor);
+  EXPECT_NEAR(descent.min_determinant(targets, region, skin), 1, 1e-9);
+  grid.mesh.points[next][0] = -0.3 * h;
+  EXPECT_LT(descent.min_determinant(targets, region, skin), 0);
+  Energy energy;
+  energy.eps = 0.3;
+  descent.run(energy, targets, region, {}, skin, 100);
+  EXPECT_GT(descent.min_determinant(targets, region, skin), 0);
+  EXPECT_GT(grid.mesh.points[next][0], 0);
 }
 
 }  // namespace

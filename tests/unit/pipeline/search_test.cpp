@@ -78,7 +78,7 @@ struct Search {
   Monitor monitor{};
   Stages stages{};
 
-  Found run() {
+  SearchResult run() {
     return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor);
   }
   /// The failure that it ends in.
@@ -117,7 +117,7 @@ TEST(Search, AMeshWithAWorseCellMayKeepMoreEdges) {
 
 TEST(Search, PatienceWithPoorCellsEnds) {
   const Budget budget;
-  const Score poor{0, 0, 0.15, 0.15}, narrow{0, 0, 0.12, 0.3}, lost{1, 0, 0.9, 0.9};
+  const Score poor{0, 0, 0.15, 0.15}, narrow{0, 0, 0.03, 0.3}, lost{1, 0, 0.9, 0.9};
   EXPECT_FALSE(good_enough(poor, 0, budget));
   EXPECT_TRUE(good_enough(poor, budget.patience, budget));
   EXPECT_TRUE(good_enough(narrow, 0, budget));  // the CAD holds its worst cell
@@ -158,7 +158,7 @@ TEST(Search, OutOfTimeGivesTheBestSoFar) {
   Search s;
   s.stages.outcomes = {{"a", mesh({1, 0, 0.3, 0.3})}};
   s.stages.deeds["b"] = [] { throw OutOfTime("out of time"); };
-  const Found found = s.run();
+  const SearchResult found = s.run();
   EXPECT_EQ(found.plan.name, "a");
   EXPECT_TRUE(found.out_of_time);
   s.stages.outcomes.clear();

@@ -1,0 +1,33 @@
+// Where cuts break through each other: narrow tips, corners between two cells, nodes of faces that want to leave them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "pipeline/pipeline.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+void expect_complete(const std::string& brep, double least) {
+  const CadModel model = CadModel::from_brep(brep);
+  const MeshResult result = mesh(model, MeshOptions(), Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_EQ(result.association.patches.size(), static_cast<std::size_t>(model.face_count()));
+  EXPECT_GE(result.report.quality.min_scaled_jacobian, least);
+}
+
+TEST(Breakthroughs, AHoleThroughTheWallOfASlotIsMeshedCompletely) { expect_complete(shapes::hole_through_slot(), 0.2); }
+
+TEST(Breakthroughs, ASlotThroughTheEdgeOfAHoleIsMeshedCompletely) { expect_complete(shapes::slots_through_hole(), 0.3); }
+
+TEST(Breakthroughs, AHolePastTheEdgeOfAChamferIsMeshedCompletely) { expect_complete(shapes::hole_past_chamfer(0.256, 0), 0.15); }
+
+TEST(Breakthroughs, ACornerTwoCellsFromAnEdgeAsksForNoFinerGrid) {
+  const MeshResult result = mesh(CadModel::from_brep(shapes::hole_past_chamfer(0.35, 1)), MeshOptions(), Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_EQ(std::count(result.report.warnings.begin(), result.report.warnings.end(), "the cells are finer than asked for"), 0);
+}
+
+}  // namespace
+}  // namespace polycube

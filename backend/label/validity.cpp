@@ -102,9 +102,9 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
 
-// A CAD edge that goes back along the axis of its boundary at less than 60 degrees to it (guess): no map straightens that, however short it is. Smooth edges that pass their
+// A CAD edge that goes back more along the axis of its boundary than across it (45 degrees, guess): no map straightens that, however short it is. Smooth edges that pass their
 // turning point by a little run flat there.
-constexpr double kSteep = 0.5;
+constexpr double kSteep = 0.7071;
 // Of the noise, what such an edge must go back at least: rounding is no reversal.
 constexpr double kRealShare = 0.01;
 

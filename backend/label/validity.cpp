@@ -102,10 +102,10 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
 
-// A CAD edge that goes back more along the axis of its boundary than across it (45 degrees, guess): no map straightens that, however short it is. Smooth edges that pass their
-// turning point by a little run flat there.
-constexpr double kSteep = 0.7071;
-// Of the noise, what such an edge must go back at least: rounding is no reversal.
+// Two CAD edges that meet in a tip, both less than 60 degrees (guess) from the axis of the boundary that goes forth on one and back on the other: no map opens that, however
+// short they are. Smooth edges that pass their turning point by a little run flat there.
+constexpr double kSteep = 0.5;
+// Of the noise, what a boundary must go back at such a tip at least: rounding is no reversal.
 constexpr double kRealShare = 0.01;
 
 }  // namespace
@@ -281,24 +281,30 @@ class ViolationFinder::Check {
 
   // Along the darts [first, last) of a loop. To blame is what lies beside the boundary where it goes back.
   void count_reversals(const std::vector<int>& loop, std::size_t first, std::size_t last, int axis, double sign) {
-    double high = sign * value_at(loop[first], axis), before = high;
-    bool counted = false, steep = false;
+    double high = sign * value_at(loop[first], axis), low = high, before = high;
+    bool counted = false, tip = false, was_forward = true, was_steep = false;
     std::size_t turn = first, at = first;
-    const auto pass = [&](double value, bool steep_way) {
+    const auto count_if_far = [&] {
+      if (counted || high - low <= (tip ? kRealShare : 1) * f_.noise_) return;
+      ++result_.turning_points;
+      for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
+      counted = true;
+    };
+    const auto pass = [&](double value, bool steep) {
       const double x = sign * value;
+      if (x == before) return;  // the end of one dart is the start of the next
+      const bool forward = x > before;
+      tip = tip || (forward != was_forward && steep && was_steep);
+      low = std::min(low, x);
+      count_if_far();
       if (x > high) {
-        high = x;
-        counted = steep = false;
+        high = low = x;
+        counted = tip = false;
         turn = at;
-      } else {
-        steep = steep || (x < before && steep_way);
-        if (!counted && high - x > (steep ? kRealShare : 1) * f_.noise_) {
-          ++result_.turning_points;
-          for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
-          counted = true;
-        }
       }
       before = x;
+      was_forward = forward;
+      was_steep = steep;
     };
     for (; at < last; ++at) {
       const Course& course = f_.course_[loop[at] / 2][axis];

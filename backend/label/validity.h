@@ -21,8 +21,8 @@ struct Violations {
 /// For many labellings of one graph: what does not depend on the labels is worked out once. Safe to use from several threads.
 class ViolationFinder {
  public:
-  /// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count, but for those that run steeply
-  /// along CAD edges. Holds a reference to `graph`.
+  /// `points` are mesh points in the frame of the labels. `noise`: reversals of a boundary below this length (mm) do not count, but for tips between steep
+  /// CAD edges. Holds a reference to `graph`.
   ViolationFinder(const RegionGraph& graph, const std::vector<Vec3>& points, double noise);
 
   Violations find(const std::vector<int>& region_label) const;

@@ -1,21 +1,8 @@
-"""Where the solver CalculiX is; shared by the demo and the tests. Debian 13 has no package of it."""
+"""The workbench's ccx.py, for the demo and the tests: those that start no FreeCAD have no workbench to import it from."""
 
 import os
-import shutil
+import runpy
 
-import FreeCAD
-
-MISSING = "CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)"
-
-
-def find():
-    """Path of the program: POLYCUBE_CCX, else the one in FreeCAD's preferences, else ccx on PATH; None if there is none."""
-    named = os.environ.get("POLYCUBE_CCX")
-    if named:
-        found = shutil.which(named)
-        if not found:
-            raise RuntimeError("POLYCUBE_CCX names no program: " + named)
-        return found
-    preferences = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx")
-    preferred = None if preferences.GetBool("UseStandardCcxLocation", True) else preferences.GetString("ccxBinaryPath", "")
-    return shutil.which(preferred or "ccx")
+_REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+_MODULE = runpy.run_path(os.path.join(_REPO, "Mod", "Polycube", "freecad", "polycube", "ccx.py"))
+find, MISSING = _MODULE["find"], _MODULE["MISSING"]

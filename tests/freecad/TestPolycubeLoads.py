@@ -53,6 +53,16 @@ class LoadTest(solver_tests.SolverTest):
         """Path of the input file that FreeCAD writes."""
         return calculix.write(analysis, solver_tests.solver_of(analysis), self.folder).inp_file_name
 
+    def in_turned_container(self):
+        """(container, a box of 10 mm in it)"""
+        self.document = FreeCAD.newDocument()
+        container = self.document.addObject("App::Part", "Container")
+        box = self.document.addObject("Part::Box", "Box")
+        container.addObject(box)
+        container.Placement = FreeCAD.Placement(Vector(5, -3, 2), FreeCAD.Rotation(Vector(1, 2, 3), 50))
+        self.document.recompute()
+        return container, box
+
     def group(self, mesh, name):
         return next(mesh.getGroupElements(group) for group in mesh.Groups if mesh.getGroupName(group) == name)
 
@@ -189,16 +199,6 @@ class MechanicalLoads(LoadTest):
             self.written(analysis)
         self.assertTrue(any("has changed" in call.args[0] for call in warn.call_args_list))
 
-    def in_turned_container(self):
-        """(container, a box of 10 mm in it)"""
-        self.document = FreeCAD.newDocument()
-        container = self.document.addObject("App::Part", "Container")
-        box = self.document.addObject("Part::Box", "Box")
-        container.addObject(box)
-        container.Placement = FreeCAD.Placement(Vector(5, -3, 2), FreeCAD.Rotation(Vector(1, 2, 3), 50))
-        self.document.recompute()
-        return container, box
-
     def test_a_part_in_a_turned_container(self):
         """FreeCAD 0.20 looks for its faces, and takes the direction of a force, inside the container; the mesh stands where the part is."""
         container, box = self.in_turned_container()
@@ -305,14 +305,14 @@ class SectionPrint(LoadTest):
 
 
 class Warnings(LoadTest):
-    def test_constraints_that_this_freecad_does_not_write(self):
+    def test_constraints_that_only_our_command_writes(self):
         part, _, inner, ends = self.tube(inner=5.0)
         analysis, _ = calculix.make_analysis(part, [ends[0]])
         self.add(analysis, "Bearing", part, inner)
         obj = objects.make(self.document, part)
         analysis.addObject(obj)
         warnings = self.set_mesh(obj, polycube.mesh(part, size=9))
-        self.assertIn("Bearing: this FreeCAD writes nothing for it into the input of CalculiX", warnings)
+        self.assertIn("Bearing: this FreeCAD's own run of CalculiX leaves it out, polycube.solve does not", warnings)
 
     def test_without_our_groups_what_freecad_loses_is_told(self):
         part = self.part(Part.makeBox(10, 10, 10))

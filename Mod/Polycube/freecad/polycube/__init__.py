@@ -3,24 +3,27 @@
     from freecad import polycube
     result = polycube.mesh(shape_or_object, size=5, order=2)      # arrays and report, no document needed
     obj = polycube.create_fem_mesh(part_object, size=5)           # a FEM mesh object in the part's document
+    solution = polycube.solve(analysis)                           # CalculiX, results in the analysis
     labels = polycube.labels(shape_or_object)                     # the polycube's axis of every piece of the boundary
 
 Works in FreeCAD and freecadcmd; nothing here needs a window. The work itself runs in a child process.
 FreeCAD imports this package at start, so it imports nothing heavy.
 """
 
-from .api import create_fem_mesh, labels, mesh, options, update_fem_mesh
-from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
+from .api import create_fem_mesh, labels, mesh, options, solve, update_fem_mesh
+from .errors import Cancelled, InvalidInput, PolycubeError, SolverFailed, StageFailed
 
 __version__ = "0.1.0"
 __all__ = [
     "Cancelled",
     "InvalidInput",
     "PolycubeError",
+    "SolverFailed",
     "StageFailed",
     "create_fem_mesh",
     "labels",
     "mesh",
     "options",
+    "solve",
     "update_fem_mesh",
 ]

@@ -79,6 +79,13 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None):
     return obj
 
 
+def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
+    """Solves an analysis by CalculiX, with all its loads, and loads the results into it: see solver.solve, which this is. Returns a Solution."""
+    from . import solver as solving
+
+    return solving.solve(analysis, element, solver, folder, log, cancel)
+
+
 def with_constraints(options, part, analysis):
     """The options, with the faces that carry constraints of the analysis among those to keep."""
     from . import fem_mesh

@@ -45,6 +45,11 @@ def newtons(force):
     return FreeCAD.Units.Quantity(value.getValueAs("N")) if isinstance(value, FreeCAD.Units.Quantity) else value
 
 
+def plain(value, unit, factor=1.0):
+    """A property as number in a unit: of quantities, as 1.x has them, their value in it; of the plain numbers of 0.20 what they are, times a factor."""
+    return value.getValueAs(unit).Value if isinstance(value, FreeCAD.Units.Quantity) else value * factor
+
+
 def qt_number(flag):
     """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
     return int(getattr(flag, "value", flag))

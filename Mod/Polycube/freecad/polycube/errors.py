@@ -24,3 +24,7 @@ class StageFailed(PolycubeError, RuntimeError):
 
 class Cancelled(PolycubeError, RuntimeError):
     """The user cancelled, or the time limit passed."""
+
+
+class SolverFailed(PolycubeError, RuntimeError):
+    """CalculiX ended without results; the message has its own words."""

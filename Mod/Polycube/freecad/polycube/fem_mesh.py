@@ -6,8 +6,8 @@ from . import compat, engine, shapes
 
 #: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
 _TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
-#: Constraints that FreeCAD has in its menus and, in some versions, no writer for: type and the writer's name
-_WRITERS = {
+#: Constraints that FreeCAD has in its menus and, in some versions, no writer for: type and the writer's name, by which special_loads knows them
+_SPECIAL = {
     "Fem::ConstraintBearing": "bearing",
     "Fem::ConstraintBodyHeatSource": "bodyheatsource",
     "Fem::ConstraintGear": "gear",
@@ -92,9 +92,9 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
         what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY.get(member.TypeId)
         if what and not groups_are_asked:
             warnings.append("{}: FreeCAD cannot apply {} to hexahedra".format(member.Label, what))
-        writer = _WRITERS.get(kind) or _WRITERS.get(member.TypeId)
+        writer = special_kind(member)
         if writer and not importlib.util.find_spec("femsolver.calculix.write_constraint_" + writer):
-            warnings.append("{}: this FreeCAD writes nothing for it into the input of CalculiX".format(member.Label))
+            warnings.append("{}: this FreeCAD's own run of CalculiX leaves it out, polycube.solve does not".format(member.Label))
         if kind in ("Fem::MaterialCommon", "Fem::Material"):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
@@ -115,6 +115,11 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
             if any(obj in (part, solid) for obj, _ in material.References):
                 add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
     return warnings
+
+
+def special_kind(member):
+    """The kind of a constraint that special_loads writes, None of others."""
+    return _SPECIAL.get(getattr(getattr(member, "Proxy", None), "Type", "")) or _SPECIAL.get(member.TypeId)
 
 
 def _lost_load(mesh, result, member, solid, references, load):

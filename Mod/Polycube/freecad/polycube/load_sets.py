@@ -40,6 +40,7 @@ class GroupedMesh:
     def __init__(self, owner, shape):
         self.owner = owner
         self._mesh = mesh = owner.FemMesh
+        self.part_volume = shape.Volume
         self._shapes = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes, "Solid": shape.Solids}
         self._elements = {}
         for group in mesh.Groups:
@@ -93,6 +94,11 @@ class GroupedMesh:
         elements = self.elements(shape, "Face")
         if not elements:
             return self._mesh.getccxVolumesByFace(shape)
+        sides = self.sides()
+        return [sides[face] for face in elements if face in sides]
+
+    def sides(self):
+        """{mesh face: (volume, number of its side)} of the mesh faces that are sides of volumes."""
         if self._sides is None:
             corners = {frozenset(self._mesh.getElementNodes(face)[:4]): face for face in self._mesh.Faces}
             self._sides = {}
@@ -102,24 +108,53 @@ class GroupedMesh:
                     face = corners.get(frozenset(nodes[i] for i in side))
                     if face is not None:
                         self._sides[face] = (volume, number)
-        return [self._sides[face] for face in elements if face in self._sides]
+        return self._sides
 
     def weights(self, elements):
         """{node: integral of its shape function} over mesh faces or edges: the share of an even load that it takes, in mm2 or mm."""
+        return self._integrals(elements, lambda value, size: value * _lengths(size))
+
+    def lumped_weights(self, elements):
+        """As weights(), none of them negative: by the squares of the shape functions, scaled to the size of each mesh face."""
+        rows, squares = self._per_element(elements, lambda value, size: value**2 * _lengths(size))
+        _, even = self._per_element(elements, lambda value, size: value * _lengths(size))
+        return self._summed(rows, squares * (even.sum(axis=1) / squares.sum(axis=1))[:, None])
+
+    def area_vectors(self, elements):
+        """{node: integral of its shape function times the normal} over mesh faces, in mm2: what a pressure of -1 MPa does to it, in N."""
+        return self._integrals(elements, lambda value, size: value[:, None] * size[:, None, :])
+
+    def _integrals(self, elements, integrand):
+        rows, found = self._per_element(elements, integrand)
+        return self._summed(rows, found)
+
+    def _per_element(self, elements, integrand):
+        """(nodes of the elements, integrals of integrand(shape functions, size vectors)): arrays with a row for every element and a column for every node."""
         import numpy
 
         rows = numpy.array([self._mesh.getElementNodes(element) for element in elements])
         points = self._mesh.Nodes
         places = numpy.array([[points[node][:] for node in row] for row in rows.tolist()])
-        found = numpy.zeros(rows.shape)
+        found = 0.0
         for value, slopes, weight in _QUADRATURE[rows.shape[1]]:
             along = [numpy.einsum("n,mnd->md", slope, places) for slope in slopes]
-            size = numpy.linalg.norm(numpy.cross(*along) if len(along) == 2 else along[0], axis=1)
-            found += weight * size[:, None] * value
-        total = {}
-        for node, weight in zip(rows.ravel().tolist(), found.ravel().tolist()):
-            total[node] = total.get(node, 0.0) + weight
-        return total
+            found = found + weight * integrand(numpy.array(value), numpy.cross(*along) if len(along) == 2 else along[0])
+        return rows, found
+
+    @staticmethod
+    def _summed(rows, found):
+        import numpy
+
+        nodes, places = numpy.unique(rows, return_inverse=True)
+        total = numpy.zeros((len(nodes), *found.shape[2:]))
+        numpy.add.at(total, places.ravel(), found.reshape(-1, *found.shape[2:]))
+        return dict(zip(nodes.tolist(), total.tolist()))
+
+
+def _lengths(vectors):
+    import numpy
+
+    return numpy.linalg.norm(vectors, axis=1)[:, None]
 
 
 class _StandIn:

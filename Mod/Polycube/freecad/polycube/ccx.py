@@ -1,0 +1,21 @@
+"""Where the solver CalculiX is. Debian 13 has no package of it."""
+
+import os
+import shutil
+
+import FreeCAD
+
+MISSING = "CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)"
+
+
+def find():
+    """Path of the program: POLYCUBE_CCX, else the one in FreeCAD's preferences, else ccx on PATH; None if there is none."""
+    named = os.environ.get("POLYCUBE_CCX")
+    if named:
+        found = shutil.which(named)
+        if not found:
+            raise RuntimeError("POLYCUBE_CCX names no program: " + named)
+        return found
+    preferences = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx")
+    preferred = None if preferences.GetBool("UseStandardCcxLocation", True) else preferences.GetString("ccxBinaryPath", "")
+    return shutil.which(preferred or "ccx")

@@ -1,0 +1,291 @@
+"""Solves an analysis by CalculiX: FreeCAD's writer makes the input file, what it leaves out of it on hexahedra is added, FreeCAD loads the results."""
+
+import importlib
+import os
+import re
+import subprocess
+import time
+
+import FreeCAD
+
+from . import api, ccx, deck, fem_mesh, job, special_loads
+from .errors import Cancelled, InvalidInput, SolverFailed
+from .load_sets import GroupedMesh
+
+#: what FreeCAD's search for nodes and mesh faces leaves in the entry of a constraint
+_FOUND = (
+    "Nodes",
+    "NodeLoadTable",
+    "PressureFaces",
+    "HeatFluxFaceTable",
+    "SectionPrintFaces",
+    "ContactSlaveFaces",
+    "ContactMasterFaces",
+    "TieSlaveFaces",
+    "TieMasterFaces",
+)
+#: node set of all that holds the part
+SUPPORTS = "POLYCUBE_SUPPORTS"
+
+
+class Solution:
+    """What a solve gave: `results`, FreeCAD's result objects; `path` of the input file; `element`; `notes`, lines; `seconds` that CalculiX took."""
+
+    def __init__(self, path, element, notes, springs=False):
+        self.path, self.element, self.notes, self.springs = path, element, notes, springs
+        self.results, self.seconds = [], 0.0
+
+    @property
+    def result(self):
+        """The last result object: of a load that grows the whole load."""
+        return self.results[-1]
+
+
+def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
+    """Solves the analysis, loads the results into it in one undo step and returns a Solution.
+
+    element: "C3D20R" (the default), "C3D20" of a mesh of second order; "C3D8I" (the default), "C3D8" of one of first. C3D20R becomes C3D20 in cells where
+    hourglassing threatens; an element that is asked for is taken everywhere. Meshes of other meshers keep FreeCAD's elements.
+    solver: the analysis' solver object, if it has several. folder: for the files; the default is FreeCAD's. log(line): CalculiX's output and notes.
+    cancel(): asked every 0.1 s, true stops the work.
+    Raises InvalidInput, SolverFailed with CalculiX's own words, Cancelled; the analysis is then as it was.
+    """
+    tools = _tools(analysis, solver, folder)
+    solution = write(tools, element)
+    for line in solution.notes:
+        FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
+        if log:
+            log(line)
+    started = time.monotonic()
+    run(solution.path, log, cancel)
+    solution.seconds = time.monotonic() - started
+    if solution.springs:
+        mesh = tools.mesh.FemMesh
+        _change(os.path.splitext(solution.path)[0] + ".frd", lambda text: deck.without_others(text, max(mesh.Nodes), max(mesh.Volumes)))
+    before = set(analysis.Group)
+    with api.transaction(analysis.Document, "Solve with CalculiX"):
+        if not FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/General").GetBool("KeepResultsOnReRun", False):
+            before -= {member for member in before if member.isDerivedFrom("Fem::FemResultObject")}
+            tools.purge_results()
+        tools.load_results()
+        solution.results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj not in before]
+        if not solution.results and tools.solver.AnalysisType != "check":
+            raise SolverFailed("CalculiX wrote no results")
+    return solution
+
+
+def _tools(analysis, solver, folder):
+    """FreeCAD's tools for CalculiX, with everything there that a run needs."""
+    if not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
+        raise InvalidInput("an analysis is needed")
+    if not ccx.find():
+        raise InvalidInput(ccx.MISSING)
+    solvers = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemSolverObject")]
+    ours = [member for member in solvers if getattr(getattr(member, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"]
+    if solver is None:
+        if len(ours) != 1:
+            raise InvalidInput("{} has {} solvers of the kind CalculiX Standard; one is needed".format(analysis.Label, len(ours) or "no"))
+        (solver,) = ours
+    elif solver not in ours:
+        raise InvalidInput("{} is no solver of the kind CalculiX Standard in {}".format(getattr(solver, "Label", solver), analysis.Label))
+    from femtools import ccxtools
+
+    tools = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
+    tools.update_objects()
+    if folder is None:
+        tools.setup_working_dir()
+    else:
+        os.makedirs(folder, exist_ok=True)
+        tools.setup_working_dir(folder)
+    trouble = [line for line in tools.check_prerequisites().splitlines() if line.strip()]
+    if any(kind in ("bearing", "spring") for kind, _ in _special(analysis)):
+        trouble = [line for line in trouble if "Neither constraint fixed nor" not in line]  # these hold it too
+    if trouble:
+        raise InvalidInput(" ".join(" ".join(trouble).split()))
+    return tools
+
+
+def write(tools, element=None):
+    """Writes the input file of FreeCAD's tools, completes it and returns a Solution without results."""
+    from femmesh import meshsetsgetter
+    from femsolver.calculix import writer
+    from femtools import membertools
+
+    getter = meshsetsgetter.MeshSetsGetter(tools.analysis, tools.solver, tools.mesh, membertools.AnalysisMember(tools.analysis))
+    mesh = getter.femmesh if isinstance(getter.femmesh, GroupedMesh) else None
+    special = _special(tools.analysis) if mesh else []
+    for kind, _ in special:  # this FreeCAD may know how to write one
+        if hasattr(getter.member, "cons_" + kind):
+            setattr(getter.member, "cons_" + kind, [])
+    getter.get_mesh_sets()
+    notes = _not_written(tools.analysis, tools.solver.AnalysisType, getter.member, special, mesh)
+    entries = {name[5:]: getattr(getter.member, name) for name in vars(getter.member) if name.startswith("cons_")}
+    _check_found(entries)
+    cards = _cards(tools, mesh, getter.member, entries, special)
+    files = writer.FemInputWriterCcx(tools.analysis, tools.solver, tools.mesh, getter.member, tools.working_dir, getter.mat_geo_sets)
+    tools.inp_file_name = path = files.write_solver_input()
+    if not path:
+        raise SolverFailed("FreeCAD could not write the input file")
+    chosen = ""
+    if mesh:
+        chosen, others, line = deck.choose(element, 2 if len(mesh.getElementNodes(mesh.Volumes[0])) == 20 else 1, mesh, _points(tools.analysis, mesh))
+        notes += [line] if line else []
+        _change(files.femmesh_file, lambda text: deck.set_types(text, chosen, others))
+    elif element:
+        raise InvalidInput("{}: elements can be chosen for meshes of Polycube only".format(tools.mesh.Label))
+    _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
+    springs = any(kind == "spring" for kind, _ in special)
+    if springs:
+        _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
+    return Solution(path, chosen, notes, springs)
+
+
+def _change(path, change):
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(change(text))
+
+
+def _special(analysis):
+    """(kind, constraint) of those in the analysis that special_loads writes."""
+    found = [(fem_mesh.special_kind(member), member) for member in analysis.Group]
+    return [(kind, member) for kind, member in found if kind]
+
+
+def _not_written(analysis, kind_of_analysis, member, special, mesh):
+    """Lines on members of the analysis that have no effect on this run."""
+    written = {entry["Object"].Name for name in vars(member) if name.startswith("cons_") for entry in getattr(member, name)}
+    written |= {constraint.Name for _, constraint in special}
+    notes = []
+    for constraint in analysis.Group:
+        if constraint.isDerivedFrom("Fem::Constraint") and constraint.Name not in written:
+            kind = fem_mesh.special_kind(constraint)
+            notes.append("{}: {}".format(constraint.Label, "is written for meshes of Polycube only" if kind and not mesh else "means nothing to CalculiX"))
+    for name in sorted(vars(member)):
+        if name.startswith("cons_") and getattr(member, name):
+            try:
+                analyses = importlib.import_module("femsolver.calculix.write_constraint_" + name[5:]).get_analysis_types()
+            except (ImportError, AttributeError):
+                continue
+            if analyses != "all" and kind_of_analysis not in analyses:
+                notes += ["{}: has no effect in an analysis of type {}".format(entry["Object"].Label, kind_of_analysis) for entry in getattr(member, name)]
+    for kind, constraint in special:
+        if kind_of_analysis not in special_loads.ANALYSES.get(kind, (kind_of_analysis,)):
+            notes.append("{}: has no effect in an analysis of type {}".format(constraint.Label, kind_of_analysis))
+    return notes
+
+
+def _check_found(entries):
+    """Raises InvalidInput where a constraint finds nothing in the mesh: it would be lost without a word."""
+    for entry in (entry for same in entries.values() for entry in same):
+        for name in _FOUND:
+            if name not in entry:
+                continue
+            found = entry[name]
+            if name in ("NodeLoadTable", "PressureFaces", "HeatFluxFaceTable"):  # pairs of a title and what is there
+                found = [part for _, there in found for part in there]
+            if not found:
+                raise InvalidInput("{}: nothing of the mesh is where it acts".format(entry["Object"].Label))
+
+
+def _cards(tools, mesh, member, entries, special):
+    """The cards of what FreeCAD does not write, and the print of the reactions."""
+    held, all_directions = {}, {1, 2, 3}
+    supports = set()
+    for entry in entries.get("fixed", []):
+        held.update(dict.fromkeys(entry["Nodes"], all_directions))
+    for entry in entries.get("displacement", []):
+        obj = entry["Object"]
+        directions = {along for along, free in enumerate((obj.xFree, obj.yFree, obj.zFree), 1) if not free}
+        for node in entry["Nodes"]:
+            held[node] = held.get(node, set()) | directions
+    supports.update(held)
+    # MPCs of their own; a second one for the same displacement CalculiX refuses.
+    for entry in (entry for kind in ("planerotation", "rigidbody") for entry in entries.get(kind, [])):
+        held.update(dict.fromkeys(entry["Nodes"], all_directions))
+    turned = {node for entry in entries.get("transform", []) for node in entry["Nodes"]}
+    femmesh = tools.mesh.FemMesh
+    # FreeCAD 1.x numbers two nodes of a rigid body by its place in the analysis.
+    first_node = max(femmesh.Nodes) + 2 * len(tools.analysis.Group) + 3
+    cards = special_loads.Cards(first_node, max(femmesh.Volumes, default=0) + 1, held, _materials(member))
+    for kind, constraint in special:
+        if tools.solver.AnalysisType not in special_loads.ANALYSES.get(kind, (tools.solver.AnalysisType,)):
+            continue
+        before = len(cards.step)
+        special_loads.write(kind, mesh, constraint, cards)
+        on = {int(line.split(",")[0]) for line in cards.step[before:] if not line.startswith("*")} if kind in ("gear", "pulley") else set()
+        if turned & (on | (cards.supports if kind == "bearing" else set())):
+            raise InvalidInput("{}: shares nodes with a transform constraint".format(constraint.Label))
+    supports |= cards.supports
+    if supports and tools.solver.AnalysisType in ("static", "thermomech"):
+        cards.model += ["*NSET,NSET=" + SUPPORTS, *("{},".format(node) for node in sorted(supports))]
+        cards.step += ["*NODE PRINT, NSET={}, TOTALS=ONLY, GLOBAL=YES".format(SUPPORTS), "RF"]
+    return cards
+
+
+def _materials(member):
+    """(density in t/mm3, its cells) of the materials; None for all cells."""
+    found = []
+    for entry in member.mats_linear:
+        density = entry["Object"].Material.get("Density")
+        found.append((FreeCAD.Units.Quantity(density).getValueAs("t/mm^3").Value if density else 0.0, entry.get("FEMElements")))
+    return found
+
+
+def _points(analysis, mesh):
+    """Nodes that a constraint takes hold of one by one."""
+    found = set()
+    for constraint in analysis.Group:
+        if constraint.isDerivedFrom("Fem::Constraint"):
+            for obj, names in getattr(constraint, "References", []):
+                for name in names:
+                    if name.startswith("Vertex"):
+                        found.update(mesh.getNodesByVertex(obj.Shape.getElement(name)))
+    return found
+
+
+def run(path, log=None, cancel=None):
+    """Runs CalculiX on an input file, with as many threads as FreeCAD's preferences say. Raises SolverFailed and Cancelled."""
+    threads = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx").GetInt("AnalysisNumCPUs", 1)
+    environment = dict(os.environ, OMP_NUM_THREADS=str(threads if threads > 1 else os.cpu_count() or 1))
+    folder, name = os.path.split(os.path.splitext(path)[0])
+    for ending in (".frd", ".dat"):  # those of an earlier run are no results of this one
+        if os.path.exists(os.path.join(folder, name + ending)):
+            os.remove(os.path.join(folder, name + ending))
+    child = subprocess.Popen(
+        [ccx.find(), "-i", name],
+        cwd=folder,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        start_new_session=True,
+    )
+    lines = []
+    with job.watched(child, cancel) as watcher:
+        for line in child.stdout:
+            lines.append(line.rstrip("\n"))
+            if log:
+                log(lines[-1])
+        status = child.wait()
+    if watcher.reason:
+        raise Cancelled(watcher.reason)
+    words = _error(lines)
+    if words or status:
+        raise SolverFailed("CalculiX: " + (words or "it ended with status {}".format(status)))
+
+
+def _error(lines):
+    """CalculiX's first error in one line: "*ERROR ..." and the indented lines that go on with it."""
+    for i, line in enumerate(lines):
+        if line.lstrip().startswith("*ERROR"):
+            words = [line.strip()]
+            for more in lines[i + 1 : i + 6]:
+                if not re.match(r"^ {5,}\S", more):
+                    break
+                words.append(more.strip())
+            return " ".join(words)
+    return ""

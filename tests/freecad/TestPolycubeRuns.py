@@ -1,0 +1,178 @@
+"""polycube.solve: choice of elements, errors, cancelling, results in the document."""
+
+import os
+import re
+from unittest import mock
+
+import Part
+import TestPolycubeSolve as solve_tests
+import TestPolycubeSolver as solver_tests
+from FreeCAD import Vector
+
+from freecad import polycube
+from freecad.polycube import ccx, deck
+
+YOUNG = solve_tests.YOUNG
+
+
+def types_of(path):
+    """{element type: number of cells} of an input file."""
+    found, kind = {}, None
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                head = re.match(r"\*ELEMENT, TYPE=(\w+)", line.upper())
+                kind = head and head.group(1)
+            elif kind:
+                found[kind] = found.get(kind, 0) + len(re.findall(r"\d+", line))
+    return {kind: numbers // (1 + int(re.match(r"C3D(\d+)", kind).group(1))) for kind, numbers in found.items()}
+
+
+class Elements(solve_tests.SolveTest):
+    def cantilever(self, width, **options):
+        """A bar of 40 x width x width mm, one end fixed, 10 N at the other: (deflection over that of beam theory with shear, the solution)."""
+        part = self.part(Part.makeBox(40, width, width))
+        analysis = self.analysis(part, ["Face1"], PoissonRatio="0")
+        self.add(analysis, "Force", part, "Face2", Force=10, Direction=(part, ["Face6"]))
+        solution = self.solve(analysis, part, **options)
+        theory = 10 * 40**3 / (3 * YOUNG * width**4 / 12) + 10 * 40 / (YOUNG / 2 * width**2 * 5 / 6)
+        return max(vector.z for vector in solution.result.DisplacementVectors) / theory, solution
+
+    def test_defaults_by_order(self):
+        for order, kind in ((1, "C3D8I"), (2, "C3D20R")):
+            with self.subTest(order=order):
+                found, solution = self.cantilever(10, order=order, size=5)
+                self.assertEqual((solution.element, set(types_of(solution.path)), solution.notes), (kind, {kind}, []))
+                self.assertAlmostEqual(found, 1, delta=0.01)
+
+    def test_on_request(self):
+        for order, kind, low, high in ((1, "C3D8", 0.5, 0.95), (2, "C3D20", 0.99, 1.01)):
+            with self.subTest(kind):
+                found, solution = self.cantilever(10, order=order, size=5, element=kind)
+                self.assertEqual(set(types_of(solution.path)), {kind})
+                self.assertTrue(low < found < high, found)
+
+    def test_one_cell_through(self):
+        """Hourglassing threatens: C3D20 there, and a line that says so; what is asked for is taken."""
+        found, solution = self.cantilever(5, size=5)
+        self.assertEqual(types_of(solution.path), {"C3D20": 8})
+        self.assertEqual(solution.notes, ["C3D20 in place of C3D20R in 8 of 8 cells, against hourglassing: 8 that reach from side to side of the part"])
+        self.assertAlmostEqual(found, 1, delta=0.01)
+        _, solution = self.cantilever(5, size=5, element="C3D20R")
+        self.assertEqual((types_of(solution.path), solution.notes), ({"C3D20R": 8}, []))
+
+    def test_point_loads(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "Force", part, "Vertex5", Force=10, Direction=(part, ["Face2"]))
+        solution = self.solve(analysis, part)
+        self.assertEqual(types_of(solution.path), {"C3D20R": 31, "C3D20": 1})
+        self.assertEqual(solution.notes, ["C3D20 in place of C3D20R in 1 of 32 cells, against hourglassing: 1 at point loads"])
+
+    def test_elements_of_another_order_are_refused(self):
+        part, analysis = self.bar("Face1")
+        with self.assertRaisesRegex(polycube.InvalidInput, "^C3D8I is not an element of a mesh of order 2: C3D20R, C3D20$"):
+            self.solve(analysis, part, element="C3D8I")
+
+    def test_meshes_of_others_keep_their_elements(self):
+        from femexamples import ccx_cantilever_faceload
+
+        self.document = ccx_cantilever_faceload.setup()
+        solution = polycube.solve(self.document.Analysis, folder=self.folder)
+        self.assertEqual((solution.element, solution.notes), ("", []))
+        self.assertAlmostEqual(min(vector.z for vector in solution.result.DisplacementVectors), -86.93, delta=0.05)
+
+
+class Runs(solve_tests.SolveTest):
+    def loaded(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        self.document.recompute()
+        return part, analysis
+
+    def test_results_are_one_undo_step_and_replace_those_before(self):
+        part, analysis = self.loaded()
+        self.document.UndoMode = 1
+        before = [member.Name for member in analysis.Group]
+        lines = []
+        solution = polycube.solve(analysis, folder=self.folder, log=lines.append)
+        self.assertTrue(any("CalculiX" in line for line in lines))
+        self.assertEqual(solution.results, [member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")])
+        self.assertGreater(solution.seconds, 0)
+        again = polycube.solve(analysis, folder=self.folder)
+        self.assertEqual(len([member for member in analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]), 1)
+        self.assertEqual(again.result.NodeNumbers[-1], len(again.result.NodeNumbers))
+        self.document.undo()
+        self.document.undo()
+        self.assertEqual([member.Name for member in analysis.Group], before)
+
+    def test_frequencies(self):
+        part, analysis = self.loaded()
+        solver = solver_tests.solver_of(analysis)
+        solver.AnalysisType, solver.EigenmodesCount = "frequency", 3
+        solution = polycube.solve(analysis, folder=self.folder)
+        self.assertIn("Force: has no effect in an analysis of type frequency", solution.notes)
+        self.assertEqual([result.Eigenmode for result in solution.results], [1, 2, 3])
+        self.assertGreater(solution.results[0].EigenmodeFrequency, 1000)
+
+    def test_calculix_own_words(self):
+        part, analysis = self.loaded()
+        before, undo = [member.Name for member in analysis.Group], self.document.UndoCount
+        wrong = mock.patch.object(deck, "add_cards", lambda text, model, step: text.replace("*END STEP", "*BOUNDARY\nNOWHERE,1\n*END STEP"))
+        with wrong, self.assertRaises(polycube.SolverFailed) as caught:
+            polycube.solve(analysis, folder=self.folder)
+        self.assertRegex(str(caught.exception), r"^CalculiX: \*ERROR reading \*BOUNDARY.*NOWHERE")
+        self.assertNotIn("\n", str(caught.exception))
+        self.assertEqual(([member.Name for member in analysis.Group], self.document.UndoCount), (before, undo))
+
+    def test_cancel(self):
+        part, analysis = self.loaded()
+        with mock.patch.object(ccx, "find", return_value=self.sleeper()), self.assertRaises(polycube.Cancelled):
+            polycube.solve(analysis, folder=self.folder, cancel=lambda: True)
+
+    def sleeper(self):
+        """A program that never ends by itself."""
+        path = os.path.join(self.folder, "sleeper")
+        with open(path, "w", encoding="ascii") as file:
+            file.write("#!/bin/sh\nexec sleep 600\n")
+        os.chmod(path, 0o755)
+        return path
+
+    def test_what_is_needed(self):
+        part, analysis = self.loaded()
+        with self.assertRaisesRegex(polycube.InvalidInput, "an analysis is needed"):
+            polycube.solve(part)
+        with mock.patch.object(ccx, "find", return_value=None), self.assertRaisesRegex(polycube.InvalidInput, "POLYCUBE_CCX"):
+            polycube.solve(analysis)
+        self.document.removeObject("Support")
+        with self.assertRaisesRegex(polycube.InvalidInput, "Static analysis: Neither"):
+            polycube.solve(analysis, folder=self.folder)
+        self.document.removeObject("Solver")
+        with self.assertRaisesRegex(polycube.InvalidInput, "has no solvers"):
+            polycube.solve(analysis, folder=self.folder)
+
+    def test_what_means_nothing_is_told(self):
+        part, analysis = self.loaded()
+        self.add(analysis, "ElectrostaticPotential", part, "Face3")
+        self.add(analysis, "Heatflux", part, "Face3")
+        self.add(analysis, "BodyHeatSource", part)
+        notes = polycube.solve(analysis, folder=self.folder).notes
+        self.assertIn("ElectrostaticPotential: means nothing to CalculiX", notes)
+        self.assertIn("Heatflux: has no effect in an analysis of type static", notes)
+        self.assertIn("BodyHeatSource: has no effect in an analysis of type static", notes)
+
+    def test_turned_container(self):
+        """A gear of a part in a turned container pulls where the mesh stands."""
+        container, box = self.in_turned_container()
+        self.assertTrue(container.Placement.Rotation.Angle)
+        hole = self.document.addObject("Part::Feature", "Ring")
+        container.addObject(hole)
+        hole.Shape = Part.makeCylinder(20, 10).cut(Part.makeCylinder(10, 10))
+        self.document.removeObject(box.Name)
+        faces = {face.Surface.TypeId[6:] + str(round(face.CenterOfMass.z)): "Face{}".format(n) for n, face in enumerate(hole.Shape.Faces, 1)}
+        analysis = self.analysis(hole, [faces["GeomPlane0"]])
+        outer = next("Face{}".format(n) for n, face in enumerate(hole.Shape.Faces, 1) if getattr(face.Surface, "Radius", 0) == 20)
+        self.add(analysis, "Gear", hole, outer, Diameter=60, Force=500, Direction=(hole, [faces["GeomPlane10"]]))
+        solution = self.solve(analysis, hole, size=5)
+        total = sum(solve_tests.loads_of(solution.path).values(), Vector())
+        self.assertLess((total - container.Placement.Rotation.multVec(Vector(0, 0, 500))).Length, 1e-6)

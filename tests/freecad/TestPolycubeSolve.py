@@ -1,0 +1,329 @@
+"""polycube.solve: every constraint of FreeCAD that acts on solids acts on hexahedra, with its whole."""
+
+import math
+import os
+import re
+
+import FreeCAD
+import Part
+import TestPolycubeLoads as whole_loads
+import TestPolycubeSolver as solver_tests
+from FreeCAD import Vector
+
+from freecad import polycube
+from freecad.polycube import special_loads
+
+calculix = solver_tests.calculix
+whole_loads.UNITS.update(normalStiffness="N/m", tangentialStiffness="N/m", CFlux="kg*mm^2/s^3", HeatSource="W/kg", DissipationRate="W/kg", Diameter="mm")
+
+#: of steel, in N, mm, t
+YOUNG, DENSITY = 210000.0, 7.85e-9
+
+
+def total_of(path, name):
+    """Sum of the reactions that CalculiX printed last of a node set."""
+    with open(os.path.splitext(path)[0] + ".dat", encoding="utf-8") as file:
+        text = file.read()
+    numbers = text[text.rindex("for set {} ".format(name.upper())) :].splitlines()[2].split()
+    return Vector(*map(float, numbers))
+
+
+def loads_of(path):
+    """{node: force} of the *CLOAD lines."""
+    found, reading = {}, False
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if line.startswith("*"):
+                reading = reading and line.startswith("**") or line.upper().startswith("*CLOAD")
+            elif reading and re.match(r"\d+,\d,", line):
+                node, along, value = line.split(",")
+                found.setdefault(int(node), Vector())[int(along) - 1] += float(value)
+    return found
+
+
+@solver_tests.needs_calculix
+class SolveTest(whole_loads.LoadTest):
+    def analysis(self, part, fixed, kind="static", **material):
+        analysis, solver = calculix.make_analysis(part, fixed)
+        solver.AnalysisType = kind
+        steel = next(member for member in analysis.Group if member.TypeId == "App::MaterialObjectPython")
+        heat = {"ThermalConductivity": "50 W/m/K", "ThermalExpansionCoefficient": "0 m/m/K", "SpecificHeat": "500 J/kg/K"}
+        steel.Material = dict(steel.Material, **heat, **material)
+        if not fixed:
+            self.document.removeObject("Support")
+        return analysis
+
+    def bar(self, *fixed, **options):
+        """A bar of 40 x 10 x 10 mm and its analysis, fixed at faces: Face1 and Face2 are its ends."""
+        part = self.part(Part.makeBox(40, 10, 10))
+        return part, self.analysis(part, fixed, **options)
+
+    def solve(self, analysis, part, size=5, order=2, **options):
+        if not any(member.isDerivedFrom("Fem::FemMeshObject") for member in analysis.Group):
+            polycube.create_fem_mesh(part, size=size, order=order, analysis=analysis)
+        self.document.recompute()
+        return polycube.solve(analysis, folder=self.folder, **options)
+
+    def mesh(self, analysis):
+        return next(member for member in analysis.Group if member.isDerivedFrom("Fem::FemMeshObject"))
+
+    def of_face(self, solution, analysis, name, values):
+        """The values, one per node of the result, at the nodes of a face."""
+        mesh = self.mesh(analysis).FemMesh
+        nodes = {node for quad in self.group(mesh, name) for node in mesh.getElementNodes(quad)}
+        return [value for node, value in zip(solution.result.NodeNumbers, values) if node in nodes]
+
+    def near(self, found, expected, share=5e-3):
+        found, expected = ((Vector(vector) if isinstance(vector, Vector) else Vector(vector, 0, 0)) for vector in (found, expected))
+        self.assertLess((found - expected).Length, share * expected.Length, (found, expected))
+
+
+class Mechanical(SolveTest):
+    def test_force_and_fixed(self):
+        for order in (1, 2):
+            for loaded in ("Face2", "Edge5", "Vertex5"):
+                with self.subTest(loaded, order=order):
+                    part, analysis = self.bar("Face1")
+                    self.add(analysis, "Force", part, loaded, Force=1000, Direction=(part, ["Face2"]))
+                    solution = self.solve(analysis, part, order=order)
+                    self.near(total_of(solution.path, "Support"), Vector(-1000, 0, 0))
+
+    def test_pressure(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "Pressure", part, "Face2", Pressure=5.0)
+        self.near(total_of(self.solve(analysis, part).path, "Support"), Vector(500, 0, 0))
+
+    def test_displacement(self):
+        part, analysis = self.bar("Face1", PoissonRatio="0")
+        self.add(analysis, "Displacement", part, "Face2", xFree=False, xDisplacement=0.01)
+        self.near(total_of(self.solve(analysis, part).path, "Displacement"), Vector(YOUNG * 0.01 / 40 * 100, 0, 0))
+
+    def test_plane_rotation(self):
+        """A force on a corner tilts the end of the bar, which stays plane."""
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "PlaneRotation", part, "Face2")
+        corner = next("Vertex{}".format(n) for n, v in enumerate(part.Shape.Vertexes, 1) if v.Point == Vector(40, 10, 10))
+        self.add(analysis, "Force", part, corner, Force=1000, Direction=(part, ["Face2"]))
+        solution = self.solve(analysis, part)
+        self.near(total_of(solution.path, "Support"), Vector(-1000, 0, 0))
+        mesh = self.mesh(analysis).FemMesh
+        ends = {n: u for n, u in zip(solution.result.NodeNumbers, solution.result.DisplacementVectors) if mesh.Nodes[n].x > 39.9}
+        by_place = {(round(mesh.Nodes[n].y), round(mesh.Nodes[n].z)): u.x for n, u in ends.items()}
+        self.assertGreater(max(by_place.values()), 1.5 * min(by_place.values()))
+        middle = (by_place[0, 0] + by_place[10, 10]) / 2
+        self.assertAlmostEqual(by_place[5, 5] / middle, 1, delta=1e-3)
+
+    def test_self_weight(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "SelfWeight", part)
+        found = total_of(self.solve(analysis, part, size=2.5).path, "POLYCUBE_SUPPORTS")
+        # the weight of half a layer of cells goes into the support at once: nodes there take 1/6 of a cell of second order
+        weight = DENSITY * 4000 * 9806
+        self.near(found, Vector(0, 0, weight * (1 - 2.5 / 40 / 6)), 5e-3)
+
+    def test_centrifugal(self):
+        part, analysis = self.bar("Face1")
+        axis = next("Edge{}".format(n) for n, edge in enumerate(part.Shape.Edges, 1) if edge.BoundBox.XMax < 1 and edge.BoundBox.YMax < 1)
+        centrif = self.add(analysis, "Centrif", part, RotationFrequency="100 1/s")
+        centrif.RotationAxis = [(part, axis)]
+        found = total_of(self.solve(analysis, part, size=2.5).path, "POLYCUBE_SUPPORTS")
+        squared = (2 * math.pi * 100) ** 2
+        self.near(Vector(found.x, 0, 0), Vector(-DENSITY * squared * 4000 * 20, 0, 0))
+
+    def test_contact_and_tie(self):
+        """A clip of two arms: the lower is held, the upper pressed onto it. The gap closes, and no more; glued together they bend as one."""
+        slot = Part.makeBox(40, 10, 1, Vector(10, 0, 5))
+        shape = Part.makeBox(50, 10, 11).cut(slot)
+        heights = {}
+        for number, face in enumerate(shape.Faces, 1):
+            if abs(face.normalAt(0, 0).z) > 0.9:
+                heights[round(face.CenterOfMass.z)] = "Face{}".format(number)
+        moved = {}
+        for kind in (None, "Contact", "Tie"):
+            part = self.part(shape)
+            analysis = self.analysis(part, [heights[0]], YoungsModulus="1000 MPa")
+            self.add(analysis, "Force", part, heights[11], Force=600, Direction=(part, [heights[11]]), Reversed=True)
+            if kind == "Contact":
+                self.add(analysis, kind, part, heights[6], heights[5], Slope=1e5)
+            elif kind:
+                self.add(analysis, kind, part, heights[6], heights[5], Tolerance=1.1)
+            solution = self.solve(analysis, part, size=5)
+            self.near(solver_tests.nodal_loads(solution.path), Vector(0, 0, -600))
+            self.near(total_of(solution.path, "Support"), Vector(0, 0, 600))
+            moved[kind] = -min(vector.z for vector in self.of_face(solution, analysis, heights[6], solution.result.DisplacementVectors))
+        self.assertGreater(moved[None], 2)
+        self.assertAlmostEqual(moved["Contact"], 1, delta=0.1)
+        self.assertLess(moved["Tie"], 0.1)
+
+    def test_section_print(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        self.add(analysis, "SectionPrint", part, "Face2")
+        solution = self.solve(analysis, part)
+        with open(os.path.splitext(solution.path)[0] + ".dat", encoding="utf-8") as file:
+            section = file.read().split("statistics for surface set")[1]
+        force = [float(number) for number in re.findall(r"-?\d\.\d+E[+-]\d+", section[section.index("\n") :])[:3]]
+        self.near(abs(force[0]), 1000)
+
+
+class Special(SolveTest):
+    """What FreeCAD's own writer leaves out."""
+
+    def wheel(self, *fixed):
+        part, outer, inner, ends = self.tube(20.0, 10.0, 30.0)
+        self.names = {"outer": outer, "inner": inner, "bottom": ends[0], "top": ends[1]}
+        return part, self.analysis(part, [self.names[name] for name in fixed])
+
+    def check_pull(self, analysis, solution, force, moment):
+        points = self.mesh(analysis).FemMesh.Nodes
+        loads = loads_of(solution.path)
+        self.near(sum(loads.values(), Vector()), force)
+        self.near(sum((points[node].cross(load) for node, load in loads.items()), Vector()), moment)
+        self.assertGreater(max(solution.result.DisplacementLengths), 0)
+
+    def test_gear(self):
+        for angle in (0, 90):
+            with self.subTest(angle):
+                part, analysis = self.wheel("bottom")
+                gear = self.add(analysis, "Gear", part, self.names["outer"], Diameter=60, Force=500, Direction=(part, [self.names["top"]]))
+                gear.ForceAngle = angle
+                solution = self.solve(analysis, part)
+                self.document.recompute()
+                arm = Vector(*(round(value) for value in special_loads._wheel(gear.Axis)(math.radians(angle)) * 30))
+                self.assertAlmostEqual(arm.Length, 30)
+                self.check_pull(analysis, solution, Vector(0, 0, 500), (gear.BasePoint + arm).cross(Vector(0, 0, 500)))
+
+    def test_pulley(self):
+        part, analysis = self.wheel("bottom")
+        # a moment of 1 Nm on a wheel of 100 mm: the one belt pulls 20 N more than the other
+        pulley = self.add(analysis, "Pulley", part, self.names["outer"], Diameter=100, OtherDiameter=100)
+        calculix.set_quantity(pulley, "TensionForce", 30, "N")
+        calculix.set_quantity(pulley, "Force", 1, "N")
+        self.document.recompute()
+        solution = self.solve(analysis, part)
+        total = sum(loads_of(solution.path).values(), Vector())
+        self.near(total.Length, 80)
+        self.assertAlmostEqual(total.z, 0, delta=1e-6)
+        points = self.mesh(analysis).FemMesh.Nodes
+        moment = sum((points[node].cross(load) for node, load in loads_of(solution.path).items()), Vector())
+        self.near(abs(moment.z), 1000)
+
+    def test_bearing(self):
+        """A wheel on an axle pulled sideways; one edge keeps it from turning."""
+        for free in (False, True):
+            with self.subTest(axial_free=free):
+                part, analysis = self.wheel()
+                self.add(analysis, "Bearing", part, self.names["inner"], AxialFree=free)
+                seam = next(n for n, edge in enumerate(part.Shape.Edges, 1) if not edge.Closed and abs(edge.CenterOfMass.x - 20) < 1e-6)
+                self.add(analysis, "Displacement", part, "Edge{}".format(seam), yFree=False, yFix=True, zFree=not free, zFix=free)
+                self.add(analysis, "Force", part, self.names["top"], Force=1000, Direction=(part, ["Edge{}".format(seam)]))
+                push = self.document.getObject("Force")
+                push.DirectionVector = Vector(1, 0, 0)
+                solution = self.solve(analysis, part)
+                load = sum(loads_of(solution.path).values(), Vector())
+                self.near(load.Length, 1000)
+                self.near(total_of(solution.path, "POLYCUBE_SUPPORTS") * -1, load, 0.02)
+                bore = self.of_face(solution, analysis, self.names["inner"], solution.result.DisplacementVectors)
+                mesh = self.mesh(analysis).FemMesh
+                nodes = {node for quad in self.group(mesh, self.names["inner"]) for node in mesh.getElementNodes(quad)}
+                places = [mesh.Nodes[node] for node in solution.result.NodeNumbers if node in nodes]
+                radial = max(abs(Vector(p.x, p.y, 0).normalize().dot(u)) for p, u in zip(places, bore))
+                self.assertLess(radial, 1e-5 * max(solution.result.DisplacementLengths))
+                self.assertEqual(max(abs(u.z) for u in bore) > 1e-9, free)
+
+    def test_spring(self):
+        """A bar on springs, pulled: its face moves by force over stiffness, along the normal and across."""
+        for direction, stiffness in (("Face2", 2000), ("Face4", 500)):
+            with self.subTest(direction):
+                part, analysis = self.bar(PoissonRatio="0")
+                self.add(analysis, "Spring", part, "Face1", normalStiffness=2e6, tangentialStiffness=5e5)
+                self.add(analysis, "Force", part, "Face1", Force=100, Direction=(part, [direction]))
+                solution = self.solve(analysis, part)
+                moved = self.of_face(solution, analysis, "Face1", solution.result.DisplacementVectors)
+                self.near(sum(moved, Vector()).Length / len(moved), 100 / stiffness)
+                self.near(total_of(solution.path, "POLYCUBE_SUPPORTS").Length, 100)
+                mesh = solution.result.Mesh.FemMesh
+                self.assertEqual((mesh.NodeCount, mesh.EdgeCount), (self.mesh(analysis).FemMesh.NodeCount, 0))
+                self.assertEqual(len(solution.result.NodeNumbers), mesh.NodeCount)
+
+    def test_what_is_missing_is_refused_by_name(self):
+        part, analysis = self.bar("Face1")
+        self.add(analysis, "Gear", part)
+        with self.assertRaisesRegex(polycube.InvalidInput, "^Gear: it needs a round face"):
+            self.solve(analysis, part)
+        self.document.removeObject("Gear")
+        other = self.document.addObject("Part::Box", "Other")
+        self.document.recompute()
+        other.Placement.Base = Vector(100, 0, 0)
+        self.document.recompute()
+        self.add(analysis, "Pressure", other, "Face2", Pressure=1.0)
+        with self.assertRaisesRegex(polycube.InvalidInput, "^Pressure: nothing of the mesh is where it acts"):
+            self.solve(analysis, part)
+
+    def test_equations_of_a_node(self):
+        self.assertEqual(special_loads.reduced([[0, 0, 1]], ()), [[(3, 1.0)]])
+        self.assertEqual(special_loads.reduced([[0, 0, 1]], (3,)), [])
+        self.assertEqual(special_loads.reduced([[0.6, 0.8, 0]], (2,)), [[(1, 1.0), (2, 0.8 / 0.6)]])
+        both = special_loads.reduced([[0.6, 0.8, 0], [0.8, -0.6, 0]], ())
+        self.assertEqual(both, [[(2, 1.0)], [(1, 1.0)]])
+        self.assertEqual(special_loads.reduced([[0.6, 0.8, 0]], (1, 2, 3)), [])
+
+
+class Heat(SolveTest):
+    """A tube held at 300 K outside; heat comes in at the bore, or in the wall. Closed forms of the temperature at the bore."""
+
+    OUTER, INNER, CONDUCTIVITY = 0.02, 0.01, 50.0
+
+    def temperature(self, order=2, size=3, **heat):
+        part, outer, inner, ends = self.tube(self.OUTER * 1000, self.INNER * 1000, 10.0)
+        analysis = self.analysis(part, [ends[0]], kind="thermomech")
+        solver_tests.solver_of(analysis).ThermoMechSteadyState = True
+        self.add(analysis, "InitialTemperature", part, initialTemperature=300)
+        self.add(analysis, "Temperature", part, outer, Temperature=300)
+        kind = heat.pop("kind")
+        self.add(analysis, kind, part, *([inner] if kind == "Heatflux" else ["Solid1"]), **heat)
+        solution = self.solve(analysis, part, size=size, order=order)
+        values = self.of_face(solution, analysis, inner, solution.result.Temperature)
+        return sum(values) / len(values)
+
+    def test_flux(self):
+        expected = 50000 * self.INNER * math.log(self.OUTER / self.INNER) / self.CONDUCTIVITY
+        self.near(self.temperature(kind="Heatflux", ConstraintType="DFlux", DFlux=50000) - 300, expected, 1e-3)
+
+    def test_film(self):
+        at_wall, through = 1 / (2000 * self.INNER), math.log(self.OUTER / self.INNER) / self.CONDUCTIVITY
+        found = self.temperature(kind="Heatflux", ConstraintType="Convection", AmbientTemp=400, FilmCoef=2000)
+        self.near(found - 300, 100 * through / (at_wall + through), 1e-3)
+
+    def test_body_heat(self):
+        power = 10000 * 7850  # W/kg times kg/m3
+        first = power / 4 / self.CONDUCTIVITY * (self.OUTER**2 - self.INNER**2)
+        expected = first - power * self.INNER**2 / 2 / self.CONDUCTIVITY * math.log(self.OUTER / self.INNER)
+        rate = "HeatSource" if FreeCAD.Version()[0] == "0" else "DissipationRate"
+        self.near(self.temperature(kind="BodyHeatSource", **{rate: 10000}) - 300, expected, 1e-3)
+
+    def test_flux_of_nodes(self):
+        part, analysis = self.bar("Face1", kind="thermomech")
+        solver_tests.solver_of(analysis).ThermoMechSteadyState = True
+        self.add(analysis, "InitialTemperature", part, initialTemperature=300)
+        self.add(analysis, "Temperature", part, "Face1", Temperature=300)
+        self.add(analysis, "Temperature", part, "Face2", ConstraintType="CFlux", CFlux=2e6)
+        solution = self.solve(analysis, part)
+        values = self.of_face(solution, analysis, "Face1", solution.result.Temperature)
+        self.assertAlmostEqual(max(values), 300, delta=1e-3)
+        middle = [t for n, t in zip(solution.result.NodeNumbers, solution.result.Temperature) if abs(self.mesh(analysis).FemMesh.Nodes[n].x - 20) < 1e-6]
+        # 2 W through 0.02 m of 1e-4 m2
+        self.near(sum(middle) / len(middle) - 300, 2 * 0.02 / (50 * 1e-4), 1e-2)
+
+    def test_expansion_that_is_held(self):
+        part, analysis = self.bar(kind="thermomech", PoissonRatio="0")
+        steel = next(member for member in analysis.Group if member.TypeId == "App::MaterialObjectPython")
+        steel.Material = dict(steel.Material, ThermalExpansionCoefficient="1e-5 m/m/K")
+        solver_tests.solver_of(analysis).ThermoMechSteadyState = True
+        self.add(analysis, "InitialTemperature", part, initialTemperature=300)
+        self.add(analysis, "Temperature", part, "Face1", "Face2", Temperature=400)
+        self.add(analysis, "Displacement", part, "Face1", xFree=False, xFix=True)
+        self.add(analysis, "Displacement", part, "Face2", xFree=False, xFix=True)
+        self.add(analysis, "Displacement", part, "Edge1", yFree=False, yFix=True, zFree=False, zFix=True)
+        solution = self.solve(analysis, part)
+        self.near(total_of(solution.path, "Displacement"), Vector(YOUNG * 1e-5 * 100 * 100, 0, 0))

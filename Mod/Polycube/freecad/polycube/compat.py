@@ -50,6 +50,21 @@ def plain(value, unit, factor=1.0):
     return value.getValueAs(unit).Value if isinstance(value, FreeCAD.Units.Quantity) else value * factor
 
 
+def density(material):
+    """Of a material object, in t/mm3; 0 if it has none."""
+    value = material.Material.get("Density")
+    return FreeCAD.Units.Quantity(value).getValueAs("t/mm^3").Value if value else 0.0
+
+
+def gravity(weight):
+    """The acceleration that FreeCAD's writer takes a self weight for, mm/s2: 0.20 has a direction only, and 9806 mm/s2 in its writer."""
+    if hasattr(weight, "GravityDirection"):
+        direction, size = FreeCAD.Vector(weight.GravityDirection), weight.GravityAcceleration.getValueAs("mm/s^2").Value
+    else:
+        direction, size = FreeCAD.Vector(weight.Gravity_x, weight.Gravity_y, weight.Gravity_z), 9806.0
+    return direction.normalize() * size if direction.Length else direction
+
+
 def qt_number(flag):
     """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
     return int(getattr(flag, "value", flag))

@@ -8,7 +8,7 @@ import time
 
 import FreeCAD
 
-from . import api, ccx, deck, fem_mesh, job, special_loads
+from . import api, balance, ccx, compat, deck, fem_mesh, job, special_loads
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh
 
@@ -26,14 +26,20 @@ _FOUND = (
 )
 #: node set of all that holds the part
 SUPPORTS = "POLYCUBE_SUPPORTS"
+#: kinds of analysis whose reactions are printed
+_WITH_REACTIONS = ("static", "thermomech")
 
 
 class Solution:
-    """What a solve gave: `results`, FreeCAD's result objects; `path` of the input file; `element`; `notes`, lines; `seconds` that CalculiX took."""
+    """What a solve gave: `results`, FreeCAD's result objects; `path` of the input file; `element`; `notes`, lines; `seconds` that CalculiX took.
 
-    def __init__(self, path, element, notes, springs=False):
-        self.path, self.element, self.notes, self.springs = path, element, notes, springs
-        self.results, self.seconds = [], 0.0
+    `balance`: whether the reactions carry the loads (balance.Balance); None where that is not known, of frequencies and large displacements among others.
+    """
+
+    def __init__(self, path, element, notes):
+        self.path, self.element, self.notes = path, element, notes
+        self.results, self.seconds, self.balance = [], 0.0, None
+        self.springs, self.weigh = False, None  # weigh: makes the balance, after the run
 
     @property
     def result(self):
@@ -56,12 +62,18 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
         FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
         if log:
             log(line)
-    started = time.monotonic()
-    run(solution.path, log, cancel)
-    solution.seconds = time.monotonic() - started
+    run(solution, log, cancel)
     if solution.springs:
         mesh = tools.mesh.FemMesh
         _change(os.path.splitext(solution.path)[0] + ".frd", lambda text: deck.without_others(text, max(mesh.Nodes), max(mesh.Volumes)))
+    if solution.weigh:
+        solution.balance = solution.weigh()
+    if solution.balance:
+        line = solution.balance.line()
+        (FreeCAD.Console.PrintMessage if solution.balance.holds else FreeCAD.Console.PrintWarning)("{}: {}\n".format(analysis.Label, line))
+        solution.notes += [] if solution.balance.holds else [line]
+        if log:
+            log(line)
     before = set(analysis.Group)
     with api.transaction(analysis.Document, "Solve with CalculiX"):
         if not FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/General").GetBool("KeepResultsOnReRun", False):
@@ -134,10 +146,13 @@ def write(tools, element=None):
     elif element:
         raise InvalidInput("{}: elements can be chosen for meshes of Polycube only".format(tools.mesh.Label))
     _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
-    springs = any(kind == "spring" for kind, _ in special)
-    if springs:
+    solution = Solution(path, chosen, notes)
+    solution.springs = any(kind == "spring" for kind, _ in special)
+    if solution.springs:
         _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
-    return Solution(path, chosen, notes, springs)
+    if mesh and tools.solver.AnalysisType in _WITH_REACTIONS and tools.solver.GeometricalNonlinearity != "nonlinear":
+        solution.weigh = lambda: balance.check(mesh, getter.member, cards.loads, cards.supports, path, SUPPORTS)
+    return solution
 
 
 def _change(path, change):
@@ -217,20 +232,16 @@ def _cards(tools, mesh, member, entries, special):
         on = {int(line.split(",")[0]) for line in cards.step[before:] if not line.startswith("*")} if kind in ("gear", "pulley") else set()
         if turned & (on | (cards.supports if kind == "bearing" else set())):
             raise InvalidInput("{}: shares nodes with a transform constraint".format(constraint.Label))
-    supports |= cards.supports
-    if supports and tools.solver.AnalysisType in ("static", "thermomech"):
-        cards.model += ["*NSET,NSET=" + SUPPORTS, *("{},".format(node) for node in sorted(supports))]
+    cards.supports |= supports
+    if cards.supports and tools.solver.AnalysisType in _WITH_REACTIONS:
+        cards.model += ["*NSET,NSET=" + SUPPORTS, *("{},".format(node) for node in sorted(cards.supports))]
         cards.step += ["*NODE PRINT, NSET={}, TOTALS=ONLY, GLOBAL=YES".format(SUPPORTS), "RF"]
     return cards
 
 
 def _materials(member):
     """(density in t/mm3, its cells) of the materials; None for all cells."""
-    found = []
-    for entry in member.mats_linear:
-        density = entry["Object"].Material.get("Density")
-        found.append((FreeCAD.Units.Quantity(density).getValueAs("t/mm^3").Value if density else 0.0, entry.get("FEMElements")))
-    return found
+    return [(compat.density(entry["Object"]), entry.get("FEMElements")) for entry in member.mats_linear]
 
 
 def _points(analysis, mesh):
@@ -245,11 +256,12 @@ def _points(analysis, mesh):
     return found
 
 
-def run(path, log=None, cancel=None):
-    """Runs CalculiX on an input file, with as many threads as FreeCAD's preferences say. Raises SolverFailed and Cancelled."""
+def run(solution, log=None, cancel=None):
+    """Runs CalculiX on the input file, with as many threads as FreeCAD's preferences say. Raises SolverFailed and Cancelled."""
+    started = time.monotonic()
     threads = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx").GetInt("AnalysisNumCPUs", 1)
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads if threads > 1 else os.cpu_count() or 1))
-    folder, name = os.path.split(os.path.splitext(path)[0])
+    folder, name = os.path.split(os.path.splitext(solution.path)[0])
     for ending in (".frd", ".dat"):  # those of an earlier run are no results of this one
         if os.path.exists(os.path.join(folder, name + ending)):
             os.remove(os.path.join(folder, name + ending))
@@ -271,6 +283,7 @@ def run(path, log=None, cancel=None):
             if log:
                 log(lines[-1])
         status = child.wait()
+    solution.seconds = time.monotonic() - started
     if watcher.reason:
         raise Cancelled(watcher.reason)
     words = _error(lines)

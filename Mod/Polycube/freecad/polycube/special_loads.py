@@ -18,18 +18,22 @@ from .errors import InvalidInput
 
 #: below this share of its row a coefficient of an equation is rounding
 _ROUNDING = 1e-9
+#: length of springs over the width of their face. CalculiX follows the turning of a spring in linear runs too: a displacement u across it, of a face that is
+#: w wide, gives it the share u/w/2 of that over this length.
+_LONG = 1000.0
 
 
 class Cards:
     """Lines for an input file: before the step and in it, and what they have to know of the rest of it.
 
-    held: {node: directions 1 to 3 that are fixed already}. materials: (density in t/mm3, its cells), None for all. supports: nodes that get reactions.
+    held: {node: directions 1 to 3 that are fixed already}. materials: (density in t/mm3, its cells), None for all. supports: nodes that get reactions,
+    loads: {node: force}.
     """
 
     def __init__(self, first_node, first_element, held, materials):
         self.model, self.step = [], []
         self.held, self.materials = held, materials
-        self.supports = set()
+        self.supports, self.loads = set(), {}
         self._node, self._element = first_node, first_element
 
     def new_node(self):
@@ -136,6 +140,7 @@ def spread(mesh, faces, pulls):
 def _pull(mesh, constraint, cards, pulls):
     cards.step.append("*CLOAD")
     for node, load in sorted(spread(mesh, _faces(mesh, constraint), pulls).items()):
+        cards.loads[node] = [one + other for one, other in zip(cards.loads.get(node, (0.0,) * 3), load)]
         cards.step += ["{},{},{:.13E}".format(node, along, value) for along, value in enumerate(load, 1) if value]
 
 
@@ -184,13 +189,13 @@ def _spring(mesh, constraint, cards):
         aside = out.cross(min((FreeCAD.Vector(1, 0, 0), FreeCAD.Vector(0, 1, 0), FreeCAD.Vector(0, 0, 1)), key=lambda unit: abs(unit.dot(out)))).normalize()
         for stiffness, along in ((normal, out), (across, aside), (across, out.cross(aside))):
             if stiffness:
-                ground.append(_grounded(cards, constraint, node, points[node] + along * area**0.5, stiffness * weight / area))
+                ground.append(_grounded(cards, constraint, node, points[node] + along * (_LONG * area**0.5), stiffness * weight / area))
     cards.model += ["*BOUNDARY", *("{},1,3".format(node) for node in ground)]
     cards.supports.update(ground)
 
 
 def _grounded(cards, constraint, node, place, stiffness):
-    """A spring from the node to a new one at the place, as long as the face is wide: large displacements turn it little. Returns the new node."""
+    """A spring from the node to a new one at the place. Returns the new node."""
     end, element = cards.new_node(), cards.new_element()
     name = "SPRING{}".format(element)
     cards.model += ["*NODE", "{},{:.13G},{:.13G},{:.13G}".format(end, *place)]

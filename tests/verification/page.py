@@ -1,0 +1,183 @@
+"""The page of a verification: tables and plots from the rows that verify.py keeps. Runs inside FreeCAD, for the table of cases.
+
+In POLYCUBE_VERIFY, JSON: "out" the rows, "page" the page, "table" the same in Markdown.
+"""
+
+import html
+import json
+import math
+import os
+import sys
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import cases  # noqa: E402
+
+#: series and element as they are called in the table, in its order; the first is what polycube.solve takes by itself
+NAMES = {
+    ("hexes", "C3D20R"): "C3D20R",
+    ("hexes", "C3D20"): "C3D20",
+    ("mapped", "C3D20R"): "C3D20R, by hand",
+    ("tets", "C3D10"): "tet10",
+    ("linear", "C3D8I"): "C3D8I",
+}
+DEFAULT, TETS, LINEAR = "C3D20R", "tet10", "C3D8I"
+#: an error that small is rounding, of results with six digits; there is no rate
+EXACT = 2e-6
+#: least rates that are asked for, by order of the mesh
+RATES = {1: 1.8, 2: 2.7}
+
+HEAD = """Each case at three sizes. The error is a share of the exact value, at the nodes that the case names; the rate is the exponent of the size of the cells, by
+nodes to the third, over the three. Seconds are the processor's, in CalculiX, at the finest. tet10: Gmsh with FreeCAD's options and HighOrderOptimize, at about as
+many nodes. "by hand": the frame that makes one block of a quarter tube. Limits at the finest size: displacements and frequencies 1 %, stresses 2 %,
+temperatures 0.1 %."""
+
+
+def curves(rows, case, index):
+    """{name: [(nodes, error, seconds, megabytes)], coarse to fine} of one quantity; None in place of rows that failed."""
+    found = {}
+    for (series, element), name in NAMES.items():
+        mine = [row for row in rows if row["case"] == case.name and row["series"] == series and row.get("element", element) == element]
+        mine = [(row["nodes"], row["errors"][index], row["seconds"], row["megabytes"]) for row in mine if "failed" not in row]
+        if mine:
+            found[name] = sorted(mine)
+    return found
+
+
+def rate(curve):
+    """Exponent of the size of the cells in the error, by least squares; None where the error is rounding."""
+    if len(curve) < 2 or min(error for _, error, _, _ in curve) < EXACT:
+        return None
+    sizes = [-math.log(nodes) / 3 for nodes, *_ in curve]
+    errors = [math.log(error) for _, error, *_ in curve]
+    mean_size, mean_error = sum(sizes) / len(sizes), sum(errors) / len(errors)
+    spread = sum((size - mean_size) ** 2 for size in sizes)
+    return sum((size - mean_size) * (error - mean_error) for size, error in zip(sizes, errors)) / spread if spread else None
+
+
+def seconds_at(curve, error):
+    """Seconds that a mesh takes to be as good, between those that were run; None if none was."""
+    for (_, worse, before, _), (_, better, after, _) in zip(curve, curve[1:]):
+        if better <= error <= worse:
+            share = math.log(worse / error) / math.log(worse / better) if worse > better > 0 else 0.0
+            return before * (after / before) ** share
+    return curve[0][2] if curve[0][1] <= error else None
+
+
+def verdict(case, quantity, found):
+    """What is wrong with the default element, in words; "" if nothing."""
+    if DEFAULT not in found:
+        return "failed"
+    said = []
+    limit = cases.LIMITS[quantity.kind]
+    if found[DEFAULT][-1][1] > limit:
+        said.append("above {:g}".format(limit))
+    if TETS in found and found[TETS][-1][1] > 0 and found[DEFAULT][-1][1] > EXACT:
+        share = found[DEFAULT][-1][1] / found[TETS][-1][1]
+        if share > 0.5:
+            said.append("{:.2g} of tet10's error".format(share))
+    return ", ".join(said)
+
+
+def lines(rows):
+    """The table: (case, quantity, mesh, nodes, errors, rate, seconds, megabytes, remark) as text."""
+    for case in cases.CASES:
+        for index, quantity in enumerate(case.quantities):
+            found = curves(rows, case, index)
+            for name, curve in found.items():
+                slope = rate(curve)
+                yield (
+                    case.title,
+                    quantity.name,
+                    name,
+                    " ".join("{}".format(nodes) for nodes, *_ in curve),
+                    " ".join("{:.2g}".format(error) for _, error, *_ in curve),
+                    "" if slope is None else "{:.1f}".format(slope),
+                    "{:.2f}".format(curve[-1][2]),
+                    "{:.0f}".format(curve[-1][3]),
+                    verdict(case, quantity, found) if name == DEFAULT else "",
+                )
+
+
+COLUMNS = ("case", "quantity", "mesh", "nodes", "errors", "rate", "s", "MB", "remark")
+
+
+def summary(rows):
+    """Lines that say how many cases are as they should be."""
+    compared = [(case, curves(rows, case, 0)) for case in cases.CASES if case.smooth]
+    compared = [(case, found) for case, found in compared if DEFAULT in found and TETS in found]
+    shares = {case.name: found[DEFAULT][-1][1] / max(found[TETS][-1][1], EXACT) for case, found in compared}
+    half = [name for name, share in shares.items() if share <= 0.5]
+    more = ["{} ({:.2g})".format(name, share) for name, share in shares.items() if share > 1.2]
+    faster = []
+    for case, found in compared:
+        mine = seconds_at(found[DEFAULT], found[TETS][-1][1])
+        if mine is not None and mine <= found[TETS][-1][2]:
+            faster.append(case.name)
+    yield "Error with the default element at equal nodes at most half of tet10's in {} of {}: {}.".format(len(half), len(shares), ", ".join(half) or "none")
+    yield "More than 1.2 times tet10's: {}.".format(", ".join(more) or "none")
+    yield "CalculiX's seconds at tet10's error at most those of tet10 in {} of {}: {}.".format(len(faster), len(shares), ", ".join(faster) or "none")
+    for order, name in ((2, DEFAULT), (1, LINEAR)):
+        slow = []
+        for case in cases.CASES:
+            found = curves(rows, case, 0)
+            slope = rate(found[name]) if name in found else None
+            if slope is not None and slope < RATES[order]:
+                slow.append("{} ({:.1f})".format(case.name, slope))
+        yield "Rate of {} below {}: {}.".format(name, RATES[order], ", ".join(slow) or "none")
+    failed = ["{} {} at {}: {}".format(row["case"], row["series"], row["size"], row["failed"]) for row in rows if "failed" in row]
+    yield "Failed: {}.".format("; ".join(failed) or "none")
+
+
+def markdown(rows):
+    found = ["# Verification", "", HEAD, "", *("- " + line for line in summary(rows)), ""]
+    found += ["| " + " | ".join(COLUMNS) + " |", "|" + "---|" * len(COLUMNS)]
+    found += ["| " + " | ".join(line) + " |" for line in lines(rows)]
+    return "\n".join(found) + "\n"
+
+
+def plot(rows, case, path):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(len(case.quantities), 2, figsize=(10, 3.6 * len(case.quantities)), squeeze=False)
+    for index, quantity in enumerate(case.quantities):
+        for name, curve in curves(rows, case, index).items():
+            errors = [max(error, 1e-12) for _, error, *_ in curve]
+            axes[index][0].loglog([nodes for nodes, *_ in curve], errors, "o-", label=name)
+            axes[index][1].loglog([seconds for _, _, seconds, _ in curve], errors, "o-", label=name)
+        for column, label in enumerate(("nodes", "seconds of CalculiX")):
+            axes[index][column].set(xlabel=label, ylabel="error: " + quantity.name)
+            axes[index][column].axhline(cases.LIMITS[quantity.kind], color="grey", linestyle=":")
+            axes[index][column].grid(True, which="both", alpha=0.3)
+        axes[index][0].legend(fontsize=8)
+    figure.suptitle("{} (exact: {})".format(case.title, case.exact))
+    figure.tight_layout()
+    figure.savefig(path, dpi=80)
+    pyplot.close(figure)
+
+
+def write(rows, page):
+    """The page, and the plots beside it."""
+    body = ["<h1>Verification</h1><p>{}</p>".format(html.escape(HEAD)), "<ul>"]
+    body += ["<li>{}</li>".format(html.escape(line)) for line in summary(rows)] + ["</ul><table>"]
+    body.append("<tr>" + "".join("<th>{}</th>".format(name) for name in COLUMNS) + "</tr>")
+    body += ["<tr>" + "".join("<td>{}</td>".format(html.escape(cell)) for cell in line) + "</tr>" for line in lines(rows)] + ["</table>"]
+    for case in cases.CASES:
+        if any(row["case"] == case.name and "failed" not in row for row in rows):
+            name = "verify-{}.png".format(case.name.replace(" ", "-"))
+            plot(rows, case, os.path.join(os.path.dirname(page), name))
+            body.append('<h2>{}</h2><img src="{}">'.format(html.escape(case.title), name))
+    style = "body{font:14px sans-serif;margin:2em}td,th{padding:2px 8px;text-align:left}tr:nth-child(even){background:#f2f2f2}"
+    with open(page, "w", encoding="utf-8") as file:
+        file.write("<!doctype html><meta charset=utf-8><title>Verification</title><style>{}</style>{}\n".format(style, "\n".join(body)))
+
+
+if "POLYCUBE_VERIFY" in os.environ:
+    _todo = json.loads(os.environ["POLYCUBE_VERIFY"])
+    with open(_todo["out"], encoding="ascii") as _file:
+        _rows = [json.loads(_line) for _line in _file]
+    write(_rows, _todo["page"])
+    with open(_todo["table"], "w", encoding="utf-8") as _file:
+        _file.write(markdown(_rows))

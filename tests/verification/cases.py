@@ -273,7 +273,7 @@ def torsion_stress(field):
     return rms(np.linalg.norm(field.stress[:, [4, 5]] - exact, axis=1)) / (shear * _RADIUS)
 
 
-# Free vibrations: the seventh frequency, after six of the whole part.
+# Free vibrations: the lowest frequency that is no motion of the whole part.
 
 
 def free(shape):
@@ -290,12 +290,13 @@ def bar():
     return free(Part.makeBox(100, 12, 8))
 
 
-def seventh(exact):
-    return lambda field: abs(field.frequencies[6] / exact - 1)
+def lowest(exact):
+    """The six motions of the whole part come out as some mHz, or not at all."""
+    return lambda field: abs(min(hertz for hertz in field.frequencies if hertz > 1) / exact - 1)
 
 
 #: Hz, by Richardson's extrapolation of C3D20 on three meshes finer than those below
-RING, BAR = 2352.8, 4137.0
+RING, BAR = 2874.05, 4160.4
 
 # Heat through the wall of a tube that is held at 300 K outside: a flux, a film, a source in the wall.
 _HEAT = {"conductivity": 50.0, "outer": 0.02, "inner": 0.01}
@@ -420,12 +421,12 @@ CASES = [
         (5, 3.5, 2.5),
         [Quantity("stress beside the hole", "stress", hole_top, 0.1), Quantity("radial stress at the hole", "stress", hole_free, 1.0)],
     ),
-    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (100, 70, 50), [Quantity("hoop stress at D", "stress", le1_stress, 0.05)]),
+    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.05)]),
     Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.1)]),
     Case("LE11", "NAFEMS LE11, cylinder, taper, sphere", "NAFEMS", le11, (200, 130, 100), [Quantity("axial stress at A", "stress", le11_stress, 0.1)]),
     Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.01)]),
-    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("7th frequency", "frequency", seventh(RING), 0.01)]),
-    Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("7th frequency", "frequency", seventh(BAR), 0.01)]),
+    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.01)]),
+    Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("lowest frequency", "frequency", lowest(BAR), 0.01)]),
     Case(
         "flux",
         "Heat flux into a bore",

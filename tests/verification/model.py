@@ -112,7 +112,7 @@ class Model:
     def solve(self, folder, element=None):
         """A Field of the results."""
         self.document.recompute()
-        tools = solver._tools(self.analysis, None, folder)
+        tools = solver.prepared(self.analysis, None, folder)
         solution = solver.write(tools, element)
         if self.change:
             mesh = tools.mesh.FemMesh

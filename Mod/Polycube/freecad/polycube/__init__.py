@@ -4,13 +4,14 @@
     result = polycube.mesh(shape_or_object, size=5, order=2)      # arrays and report, no document needed
     obj = polycube.create_fem_mesh(part_object, size=5)           # a FEM mesh object in the part's document
     solution = polycube.solve(analysis)                           # CalculiX, results in the analysis
+    series = polycube.converge(analysis)                          # finer and finer, and the limit of a result
     labels = polycube.labels(shape_or_object)                     # the polycube's axis of every piece of the boundary
 
 Works in FreeCAD and freecadcmd; nothing here needs a window. The work itself runs in a child process.
 FreeCAD imports this package at start, so it imports nothing heavy.
 """
 
-from .api import create_fem_mesh, labels, mesh, options, solve, update_fem_mesh
+from .api import converge, create_fem_mesh, labels, mesh, options, solve, update_fem_mesh
 from .errors import Cancelled, InvalidInput, PolycubeError, SolverFailed, StageFailed
 
 __version__ = "0.1.0"
@@ -20,6 +21,7 @@ __all__ = [
     "PolycubeError",
     "SolverFailed",
     "StageFailed",
+    "converge",
     "create_fem_mesh",
     "labels",
     "mesh",

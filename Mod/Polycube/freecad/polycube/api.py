@@ -86,6 +86,13 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     return solving.solve(analysis, element, solver, folder, log, cancel)
 
 
+def converge(analysis, sizes=3, quantity="max displacement", **more):
+    """The analysis on meshes finer and finer, and how far a result is from its limit: see convergence.converge, which this is. Returns a Convergence."""
+    from . import convergence
+
+    return convergence.converge(analysis, sizes, quantity, **more)
+
+
 def with_constraints(options, part, analysis):
     """The options, with the faces that carry constraints of the analysis among those to keep."""
     from . import fem_mesh

@@ -56,7 +56,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     cancel(): asked every 0.1 s, true stops the work.
     Raises InvalidInput, SolverFailed with CalculiX's own words, Cancelled; the analysis is then as it was.
     """
-    tools = _tools(analysis, solver, folder)
+    tools = prepared(analysis, solver, folder)
     solution = write(tools, element)
     for line in solution.notes:
         FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
@@ -86,8 +86,8 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     return solution
 
 
-def _tools(analysis, solver, folder):
-    """FreeCAD's tools for CalculiX, with everything there that a run needs."""
+def prepared(analysis, solver, folder):
+    """FreeCAD's tools for CalculiX, with everything there that a run needs; InvalidInput says what is not."""
     if not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
         raise InvalidInput("an analysis is needed")
     if not ccx.find():

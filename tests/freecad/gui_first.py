@@ -29,15 +29,17 @@ class First(GuiTest):
     def test_an_analysis_is_made_with_our_toolbar_alone(self):
         toolbar, menu = self.actions()
         self.assertEqual([action.text() for action in toolbar], [action.text() for action in menu])
-        self.assertEqual(len(toolbar), 7, [action.text() for action in toolbar])
-        _, analysis, *others = toolbar
+        self.assertEqual(len(toolbar), 8, [action.text() for action in toolbar])
+        _, analysis, *others, solve = toolbar
         process_events()
+        self.assertFalse(solve.isEnabled())
         self.assertFalse(any(action.isEnabled() for action in others), "they need an analysis")
         self.assertTrue(analysis.isEnabled())
         analysis.trigger()
         process_events(0.5)
         self.assertTrue(any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in self.document.Objects))
         self.assertTrue(all(action.isEnabled() for action in others), [action.text() for action in others if not action.isEnabled()])
+        self.assertTrue(solve.isEnabled())
         for action in others:
             before = len(self.document.Objects)
             action.trigger()

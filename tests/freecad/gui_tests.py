@@ -37,6 +37,9 @@ class Workbench(GuiTest):
         FreeCADGui.Selection.addSelection(self.box)
         self.assertTrue(commands.MeshFromShape().IsActive())
 
+    def test_solve_needs_an_active_analysis(self):
+        self.assertFalse(commands.Solve().IsActive())
+
 
 class Panel(GuiTest):
     def test_cancel_leaves_the_document_alone(self):

@@ -35,7 +35,7 @@ class Case:
     model: Callable  # makes the Model
     sizes: tuple
     quantities: list
-    smooth: bool = True  # whether tetrahedra are compared: not where both are exact
+    smooth: bool = True  # whether tetrahedra are compared: not where both are exact, or FreeCAD leaves the load out
     mapped: dict = None  # options that make the mesh which one would map by hand
 
 
@@ -296,7 +296,7 @@ def lowest(exact):
 
 
 #: Hz, by Richardson's extrapolation of C3D20 on three meshes finer than those below
-RING, BAR = 2874.05, 4160.4
+RING, BAR = 2874.05, 4160.48
 
 # Heat through the wall of a tube that is held at 300 K outside: a flux, a film, a source in the wall.
 _HEAT = {"conductivity": 50.0, "outer": 0.02, "inner": 0.01}
@@ -402,7 +402,7 @@ def heated_stress(field):
 
 
 CASES = [
-    Case("cantilever", "Cantilever, 9 MN at its end", "fine meshes", cantilever, (500, 333, 250), [Quantity("deflection", "displacement", cantilever_end, 0.01)]),
+    Case("cantilever", "Cantilever, 9 MN at its end", "fine meshes", cantilever, (500, 333, 250), [Quantity("deflection", "displacement", cantilever_end, 0.0051)]),
     Case("patch", "Patch test on the demo's bracket", "a linear field", patch, (8, 6, 5), [Quantity("stress", "exact", patch_stress, 1e-9)], smooth=False),
     Case(
         "lame",
@@ -410,7 +410,7 @@ CASES = [
         "Lame",
         lame,
         (2.5, 1.67, 1.25),
-        [Quantity("stresses in the plane, all nodes", "stress", lame_stress, 0.05), Quantity("hoop stress at the bore", "stress", lame_hoop, 0.05), Quantity("bore widened", "displacement", lame_moved, 0.01)],
+        [Quantity("stresses in the plane, all nodes", "stress", lame_stress, 0.015), Quantity("hoop stress at the bore", "stress", lame_hoop, 0.016), Quantity("bore widened", "displacement", lame_moved, 0.00071)],
         mapped=ONE_BLOCK,
     ),
     Case(
@@ -419,21 +419,21 @@ CASES = [
         "Howland",
         hole,
         (5, 3.5, 2.5),
-        [Quantity("stress beside the hole", "stress", hole_top, 0.1), Quantity("radial stress at the hole", "stress", hole_free, 1.0)],
+        [Quantity("stress beside the hole", "stress", hole_top, 0.025), Quantity("radial stress at the hole", "stress", hole_free, 0.091)],
     ),
-    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.05)]),
-    Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.1)]),
-    Case("LE11", "NAFEMS LE11, cylinder, taper, sphere", "NAFEMS", le11, (200, 130, 100), [Quantity("axial stress at A", "stress", le11_stress, 0.1)]),
-    Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.01)]),
-    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.01)]),
-    Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("lowest frequency", "frequency", lowest(BAR), 0.01)]),
+    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.013)]),
+    Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.057)]),
+    Case("LE11", "NAFEMS LE11, cylinder, taper, sphere", "NAFEMS", le11, (200, 130, 100), [Quantity("axial stress at A", "stress", le11_stress, 0.019)]),
+    Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.015)]),
+    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.017)]),
+    Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("lowest frequency", "frequency", lowest(BAR), 0.0016)]),
     Case(
         "flux",
         "Heat flux into a bore",
         "logarithm",
         lambda: heat("Heatflux", ConstraintType="DFlux", DFlux=_FLUX),
         (2.5, 1.67, 1.25),
-        [Quantity("temperature at the bore", "temperature", heat_error(_FLUX * _HEAT["inner"] * _WALL), 0.001)],
+        [Quantity("temperature at the bore", "temperature", heat_error(_FLUX * _HEAT["inner"] * _WALL), 0.0005)],
     ),
     Case(
         "film",
@@ -441,7 +441,7 @@ CASES = [
         "logarithm",
         lambda: heat("Heatflux", ConstraintType="Convection", AmbientTemp=400, FilmCoef=_FILM),
         (2.5, 1.67, 1.25),
-        [Quantity("temperature at the bore", "temperature", heat_error(100 * _WALL / (1 / _FILM / _HEAT["inner"] + _WALL)), 0.001)],
+        [Quantity("temperature at the bore", "temperature", heat_error(100 * _WALL / (1 / _FILM / _HEAT["inner"] + _WALL)), 0.00048)],
     ),
     Case(
         "body heat",
@@ -449,7 +449,8 @@ CASES = [
         "logarithm",
         body_heat,
         (2.5, 1.67, 1.25),
-        [Quantity("temperature at the bore", "temperature", heat_error(body_heat_exact()), 0.001)],
+        [Quantity("temperature at the bore", "temperature", heat_error(body_heat_exact()), 0.00044)],
+        smooth=False,  # FreeCAD 0.20 writes no body heat for tetrahedra
     ),
     Case(
         "disc",
@@ -457,10 +458,10 @@ CASES = [
         "closed form",
         disc,
         (2.5, 1.67, 1.25),
-        [Quantity("stresses in the plane, all nodes", "stress", disc_stress, 0.05), Quantity("hoop stress at the bore", "stress", disc_hoop, 0.05)],
+        [Quantity("stresses in the plane, all nodes", "stress", disc_stress, 0.0058), Quantity("hoop stress at the bore", "stress", disc_hoop, 0.01)],
         mapped=ONE_BLOCK,
     ),
-    Case("weight", "Bar that hangs", "closed form", hanging, (10, 5, 3.3), [Quantity("its end", "displacement", hanging_end, 0.001)], smooth=False),
-    Case("expansion", "Bar heated, free", "closed form", lambda: heated(False), (5, 3.3, 2.5), [Quantity("its end", "displacement", heated_end, 1e-4)], smooth=False),
-    Case("clamped", "Bar heated between walls", "closed form", lambda: heated(True), (5, 3.3, 2.5), [Quantity("stress", "stress", heated_stress, 1e-4)], smooth=False),
+    Case("weight", "Bar that hangs", "closed form", hanging, (10, 5, 3.3), [Quantity("its end", "displacement", hanging_end, 2e-06)], smooth=False),
+    Case("expansion", "Bar heated, free", "closed form", lambda: heated(False), (5, 3.3, 2.5), [Quantity("its end", "displacement", heated_end, 2e-06)], smooth=False),
+    Case("clamped", "Bar heated between walls", "closed form", lambda: heated(True), (5, 3.3, 2.5), [Quantity("stress", "stress", heated_stress, 4.8e-05)], smooth=False),
 ]

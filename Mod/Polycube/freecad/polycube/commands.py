@@ -2,10 +2,10 @@
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from . import resources, shapes
-from .errors import InvalidInput
+from .errors import Cancelled, InvalidInput, PolycubeError
 
 
 class MeshFromShape:
@@ -43,6 +43,48 @@ class MeshFromShape:
         return chosen[0] if len(chosen) == 1 and shapes.has_shape(chosen[0]) and not chosen[0].isDerivedFrom("Fem::FemMeshObject") else None
 
 
+class Solve:
+    """Solves the active analysis by CalculiX, with all its loads, and loads the results into it."""
+
+    Name = "Polycube_Solve"
+
+    def GetResources(self):
+        return {
+            "Pixmap": resources.icon("Polycube_Solve"),
+            "MenuText": "Solve with CalculiX",
+            "ToolTip": "Solves the active analysis with every load on its hexahedra, by elements C3D20R (first order: C3D8I), and loads the results",
+        }
+
+    def IsActive(self):
+        return bool(FreeCAD.ActiveDocument) and _active_analysis(FreeCAD.ActiveDocument) is not None and not FreeCADGui.Control.activeDialog()
+
+    def Activated(self):
+        from . import solver
+
+        analysis = _active_analysis(FreeCAD.ActiveDocument)
+        title = "Solve with CalculiX"
+        progress = QtGui.QProgressDialog(title, "Cancel", 0, 0, FreeCADGui.getMainWindow())
+        progress.setWindowModality(QtCore.Qt.WindowModal)
+        progress.setMinimumDuration(0)
+        progress.setValue(0)
+
+        def stop():
+            QtGui.QApplication.processEvents()
+            return progress.wasCanceled()
+
+        try:
+            solution = solver.solve(analysis, log=lambda line: progress.setLabelText(line.strip()[:80] or title), cancel=stop)
+        except Cancelled:
+            return
+        except PolycubeError as error:
+            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), title, "{}: {}".format(analysis.Label, error))
+            return
+        finally:
+            progress.close()
+        if solution.notes:
+            QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
+
+
 def _active_analysis(document):
     import FemGui
 
@@ -50,12 +92,9 @@ def _active_analysis(document):
     return analysis if analysis and analysis.Document == document else None
 
 
-NAMES = [MeshFromShape.Name]
-
-
 def register():
     """Adds the commands that FreeCAD does not know yet."""
     known = FreeCADGui.listCommands()
-    for command in (MeshFromShape,):
+    for command in (MeshFromShape, Solve):
         if command.Name not in known:
             FreeCADGui.addCommand(command.Name, command())

@@ -1,4 +1,4 @@
-"""FreeCAD's window loads this: the workbench, and the command in the FEM workbench's mesh menu."""
+"""FreeCAD's window loads this: the workbench, and the mesher's command in the FEM workbench's mesh menu."""
 
 import FreeCADGui
 
@@ -30,7 +30,7 @@ class PolycubeWorkbench(FreeCADGui.Workbench):
         del FemGui, femcommands
         known = FreeCADGui.listCommands()
         fem = [next((name for name in names if name in known), None) for names in _FEM_COMMANDS]
-        names = [*commands.NAMES, "Separator", *filter(None, fem)]
+        names = [commands.MeshFromShape.Name, "Separator", *filter(None, fem), "Separator", commands.Solve.Name]
         self.appendToolbar("Polycube", names)
         self.appendMenu("&Polycube", names)
 

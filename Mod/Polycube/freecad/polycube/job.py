@@ -12,7 +12,6 @@ import subprocess
 import tempfile
 import threading
 import time
-from contextlib import contextmanager
 
 from . import engine, result
 from .errors import Cancelled, InvalidInput, StageFailed
@@ -94,8 +93,9 @@ def run(job, progress=None, log=None, cancel=None):
         env=engine.environment(job.folder),
         text=True,
     )
+    watcher = _Watcher(child, cancel, job)
     stderr = _Drain(child.stderr)
-    with watched(child, cancel, job.out_of_time) as watcher:
+    try:
         for line in child.stdout:
             kind, value = job.parse(line.rstrip("\n"))
             if kind == "progress" and progress:
@@ -103,18 +103,6 @@ def run(job, progress=None, log=None, cancel=None):
             elif kind == "log" and log:
                 log(value)
         status = child.wait()
-    last_words = stderr.text()
-    if watcher.reason:
-        raise Cancelled(watcher.reason)
-    return job.finish(status, last_words)
-
-
-@contextmanager
-def watched(child, cancel=None, out_of_time=None):
-    """Kills the child when cancel() or out_of_time(seconds) says so, and when the block raises. Gives a watcher: `reason` tells which, or is None."""
-    watcher = _Watcher(child, cancel, out_of_time)
-    try:
-        yield watcher
     except BaseException:
         kill_tree(child.pid)
         child.wait()
@@ -122,6 +110,10 @@ def watched(child, cancel=None, out_of_time=None):
     finally:
         watcher.finished.set()
         watcher.join()
+        last_words = stderr.text()
+    if watcher.reason:
+        raise Cancelled(watcher.reason)
+    return job.finish(status, last_words)
 
 
 def kill_tree(pid):
@@ -155,11 +147,13 @@ class _Drain(threading.Thread):
 
 
 class _Watcher(threading.Thread):
-    def __init__(self, child, cancel, out_of_time):
+    """Kills the child when `cancel` says so or the job is out of time; `reason` tells which."""
+
+    def __init__(self, child, cancel, job):
         super().__init__(daemon=True)
         self.finished = threading.Event()
         self.reason = None
-        self._child, self._cancel, self._out_of_time = child, cancel, out_of_time
+        self._child, self._cancel, self._job = child, cancel, job
         self._start = time.monotonic()
         self.start()
 
@@ -167,7 +161,7 @@ class _Watcher(threading.Thread):
         while not self.finished.wait(0.1):
             if self._cancel and self._cancel():
                 self.reason = "cancelled"
-            elif self._out_of_time and self._out_of_time(time.monotonic() - self._start):
+            elif self._job.out_of_time(time.monotonic() - self._start):
                 self.reason = "out of time"
             if self.reason:
                 kill_tree(self._child.pid)

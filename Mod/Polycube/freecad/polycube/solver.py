@@ -2,8 +2,10 @@
 
 import importlib
 import os
+import queue
 import re
 import subprocess
+import threading
 import time
 
 import FreeCAD
@@ -28,6 +30,8 @@ _FOUND = (
 SUPPORTS = "POLYCUBE_SUPPORTS"
 #: kinds of analysis whose reactions are printed
 _WITH_REACTIONS = ("static", "thermomech")
+#: seconds between two questions whether to stop
+_PATIENCE = 0.1
 
 
 class Solution:
@@ -276,19 +280,45 @@ def run(solution, log=None, cancel=None):
         errors="replace",
         start_new_session=True,
     )
-    lines = []
-    with job.watched(child, cancel) as watcher:
-        for line in child.stdout:
-            lines.append(line.rstrip("\n"))
-            if log:
-                log(lines[-1])
-        status = child.wait()
+    try:
+        lines = list(_lines(child, log, cancel))
+    except BaseException:
+        job.kill_tree(child.pid)
+        child.wait()
+        raise
+    status = child.wait()
     solution.seconds = time.monotonic() - started
-    if watcher.reason:
-        raise Cancelled(watcher.reason)
     words = _error(lines)
     if words or status:
         raise SolverFailed("CalculiX: " + (words or "it ended with status {}".format(status)))
+
+
+def _lines(child, log, cancel):
+    """The child's lines, each told to log(line). cancel() is asked here, in the caller's thread: it may keep a window alive. Raises Cancelled."""
+    waiting = queue.Queue()
+
+    def read():
+        for line in child.stdout:
+            waiting.put(line.rstrip("\n"))
+        waiting.put(None)
+
+    threading.Thread(target=read, daemon=True).start()
+    asked = time.monotonic()
+    while True:
+        try:
+            line = waiting.get(timeout=_PATIENCE)
+        except queue.Empty:
+            line = ""
+        if cancel and time.monotonic() - asked >= _PATIENCE:
+            asked = time.monotonic()
+            if cancel():
+                raise Cancelled("cancelled")
+        if line is None:
+            return
+        if line:
+            if log:
+                log(line)
+            yield line
 
 
 def _error(lines):

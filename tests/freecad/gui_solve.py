@@ -1,0 +1,84 @@
+"""The command that solves the active analysis: results in the document, cancelling, an error in words."""
+
+import os
+import stat
+from unittest import mock
+
+import FemGui
+import FreeCAD
+import FreeCADGui
+import ObjectsFem
+from gui_support import GuiTest, process_events
+from PySide import QtCore, QtGui
+
+from freecad import polycube
+from freecad.polycube import ccx, commands
+
+
+class Solve(GuiTest):
+    def setUp(self):
+        super().setUp()
+        document = self.box.Document
+        self.analysis = ObjectsFem.makeAnalysis(document, "Analysis")
+        make_solver = getattr(ObjectsFem, "makeSolverCalculiXCcxTools", None) or ObjectsFem.makeSolverCalculixCcxTools
+        self.analysis.addObject(make_solver(document, "Solver"))
+        steel = self.analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
+        steel.Material = dict(steel.Material, Name="Steel", YoungsModulus="210000 MPa", PoissonRatio="0.3")
+        for kind, face in (("Fixed", "Face1"), ("Pressure", "Face2")):
+            obj = self.analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(document, kind))[0]
+            obj.References = [(self.box, face)]
+        document.Pressure.Pressure = 1.0
+        polycube.create_fem_mesh(self.box, size=5, analysis=self.analysis)
+        document.recompute()
+        FemGui.setActiveAnalysis(self.analysis)
+        process_events()
+
+    def tearDown(self):
+        FemGui.setActiveAnalysis()
+        super().tearDown()
+
+    def results(self):
+        return [member for member in self.analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
+
+    def run_and_answer(self, answer):
+        """Runs the command; `answer` is asked for what to do with the modal window that is open, until it says that it is done."""
+
+        def look():
+            window = QtGui.QApplication.activeModalWidget()
+            if window is None or not answer(window):
+                QtCore.QTimer.singleShot(50, look)
+
+        QtCore.QTimer.singleShot(50, look)
+        FreeCADGui.runCommand(commands.Solve.Name)
+
+    def test_results(self):
+        if not ccx.find():
+            self.skipTest(ccx.MISSING)
+        self.assertTrue(commands.Solve().IsActive())
+        with mock.patch.object(QtGui.QMessageBox, "information") as told:
+            FreeCADGui.runCommand(commands.Solve.Name)
+        self.assertEqual(len(self.results()), 1)
+        self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
+
+    def test_cancel(self):
+        program = os.path.join(os.environ.get("TMPDIR", "."), "polycube-sleeper-{}".format(os.getpid()))
+        with open(program, "w", encoding="ascii") as file:
+            file.write("#!/bin/sh\nexec sleep 600\n")
+        os.chmod(program, os.stat(program).st_mode | stat.S_IXUSR)
+        self.addCleanup(os.remove, program)
+
+        def cancel(window):
+            if isinstance(window, QtGui.QProgressDialog):
+                window.cancel()
+                return True
+
+        with mock.patch.object(ccx, "find", return_value=program):
+            self.run_and_answer(cancel)
+        self.assertEqual(self.results(), [])
+
+    def test_an_error_in_words(self):
+        FreeCAD.ActiveDocument.removeObject("Fixed")
+        with mock.patch.object(QtGui.QMessageBox, "critical") as told:
+            FreeCADGui.runCommand(commands.Solve.Name)
+        self.assertIn("Neither constraint fixed", told.call_args[0][2] if ccx.find() else "Neither constraint fixed")
+        self.assertEqual(self.results(), [])

@@ -138,6 +138,17 @@ class Mechanical(SolveTest):
         # the axis is the edge along Z, at the corner of the bar's middle line: 20 mm and 5 mm from it
         self.near(Vector(*reactions), Vector(-20, -5, 0) * (DENSITY * 4000 * (2 * math.pi * 100) ** 2))
 
+    def test_loads_on_the_same_nodes_and_faces_add_up(self):
+        part, outer, inner, ends = self.tube(20.0, 10.0, 30.0)
+        analysis = self.analysis(part, [ends[0]])
+        for force in (1000, 500):
+            self.add(analysis, "Force", part, ends[1], Force=force, Direction=(part, [ends[1]]))
+        self.add(analysis, "Force", part, outer, Force=300, Direction=(part, [ends[1]]))
+        self.add(analysis, "Gear", part, outer, Diameter=60, Force=200, Direction=(part, [ends[1]]))
+        for pressure in (2.0, 1.0):
+            self.add(analysis, "Pressure", part, ends[1], Pressure=pressure)
+        self.near(Vector(*self.solve(analysis, part).balance.reactions), Vector(0, 0, 3 * math.pi * 300 - 2000))
+
     def test_loads_that_get_lost_are_told(self):
         part, analysis = self.bar("Face1")
         self.add(analysis, "Pressure", part, "Face2", Pressure=5.0)

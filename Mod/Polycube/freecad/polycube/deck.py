@@ -16,29 +16,30 @@ def choose(element, order, mesh, loaded):
 
     element: one of TYPES[order], or None for the default. mesh: a GroupedMesh, loaded: nodes with loads or supports of a single point.
     C3D20R takes 8 integration points of 27: better stresses at half the cost of C3D20, but some shapes of deformation without any stiffness. Where cells
-    are stacked they hold each other; in cells that reach from side to side of the part, and at point loads, they show. Those get C3D20.
+    are stacked they hold each other. A free bar of 80 x 5 x 5 mm, one cell in its section, has 376 Hz in place of 4101; a plate of one layer of cells is as
+    good as with C3D20. So cells with free sides across from each other in two directions get C3D20, and those at point loads.
     """
     if element is not None and element not in TYPES[order]:
         raise InvalidInput("{} is not an element of a mesh of order {}: {}".format(element, order, ", ".join(TYPES[order])))
     chosen = element or TYPES[order][0]
     if element or chosen != "C3D20R":
         return chosen, {}, ""
-    through, pointed = _through(mesh), {volume for volume in mesh.Volumes if loaded.intersection(mesh.getElementNodes(volume))} if loaded else set()
-    others = sorted(through | pointed)
+    alone, pointed = _alone(mesh), {volume for volume in mesh.Volumes if loaded.intersection(mesh.getElementNodes(volume))} if loaded else set()
+    others = sorted(alone | pointed)
     if not others:
         return chosen, {}, ""
-    why = ["{} that reach from side to side of the part".format(len(through))] if through else []
-    why += ["{} at point loads".format(len(pointed - through))] if pointed - through else []
+    why = ["{} that are the whole section of a bar".format(len(alone))] if alone else []
+    why += ["{} at point loads".format(len(pointed - alone))] if pointed - alone else []
     line = "C3D20 in place of C3D20R in {} of {} cells, against hourglassing: {}".format(len(others), mesh.VolumeCount, " and ".join(why))
     return chosen, {"C3D20": others}, line
 
 
-def _through(mesh):
-    """Cells with two sides across from each other on the boundary: there is no cell on top or below that holds them."""
+def _alone(mesh):
+    """Cells with two pairs of sides across from each other on the boundary: only those before and behind hold them."""
     free = {}
     for volume, side in mesh.sides().values():
         free.setdefault(volume, set()).add(side)
-    return {volume for volume, sides in free.items() if any(first in sides and second in sides for first, second in _ACROSS)}
+    return {volume for volume, sides in free.items() if sum(first in sides and second in sides for first, second in _ACROSS) > 1}
 
 
 def set_types(text, chosen, others):

@@ -1,5 +1,6 @@
 """polycube.solve: choice of elements, errors, cancelling, results in the document."""
 
+import json
 import os
 import re
 from unittest import mock
@@ -122,6 +123,32 @@ class Runs(solve_tests.SolveTest):
         self.document.undo()
         self.assertEqual([member.Name for member in analysis.Group], before)
 
+    def test_where_stresses_are_least_certain(self):
+        """A plate with a small hole, pulled: the worst face is the hole's, and the estimate falls with the size of the cells."""
+        worst = []
+        for size in (5, 2.5):
+            part = self.part(Part.makeBox(60, 30, 5, Vector(-30, -15, 0)).cut(Part.makeCylinder(4, 5)))
+            hole, left, right = (
+                next("Face{}".format(n) for n, face in enumerate(part.Shape.Faces, 1) if chosen(face))
+                for chosen in (
+                    lambda face: face.Surface.TypeId == "Part::GeomCylinder",
+                    lambda face: face.CenterOfMass.x < -29,
+                    lambda face: face.CenterOfMass.x > 29,
+                )
+            )
+            analysis = self.analysis(part, [], PoissonRatio="0")
+            self.add(analysis, "Displacement", part, left, xFree=False, xFix=True, yFree=False, yFix=True, zFree=False, zFix=True)
+            self.add(analysis, "Force", part, right, Force=1000, Direction=(part, [right]))
+            lines = []
+            solution = self.solve(analysis, part, size=size, log=lines.append)
+            found = solution.stress_error
+            self.assertEqual((found.faces[0][0], len(found.faces)), (hole, 3))
+            self.assertIn(found.line(), lines)
+            self.assertEqual(len(solution.result.StressError), len(solution.result.NodeNumbers))
+            self.assertAlmostEqual(max(solution.result.StressError), max(found.percent.values()), delta=1e-6)
+            worst.append(found.faces[0][1])
+        self.assertLess(worst[1], worst[0])
+
     def test_frequencies(self):
         part, analysis = self.loaded()
         solver = solver_tests.solver_of(analysis)
@@ -166,6 +193,19 @@ class Runs(solve_tests.SolveTest):
         self.document.removeObject("Solver")
         with self.assertRaisesRegex(polycube.InvalidInput, "has no solvers"):
             polycube.solve(analysis, folder=self.folder)
+
+    def test_what_the_mesh_does_not_capture_is_refused(self):
+        """A search in space would find some nodes of a face that was ignored, and part of the load."""
+        block = Part.makeBox(20, 20, 10)
+        part = self.part(block.makeFillet(6, [edge for edge in block.Edges if edge.BoundBox.XMin > 19 and edge.BoundBox.YMin > 19]))
+        analysis = self.analysis(part, ["Face1"])
+        obj = polycube.create_fem_mesh(part, size=5, feature_angle=10, analysis=analysis)
+        ignored = json.loads(obj.Report)["cad"]["faces"]["ignored"][0]
+        self.add(analysis, "Pressure", part, ignored, Pressure=1.0)
+        with self.assertRaisesRegex(polycube.InvalidInput, "^Pressure: the mesh does not capture {}; make it again$".format(ignored)):
+            self.solve(analysis, part)
+        polycube.update_fem_mesh(obj)
+        self.assertTrue(self.solve(analysis, part).balance.holds)
 
     def test_what_means_nothing_is_told(self):
         part, analysis = self.loaded()

@@ -40,7 +40,7 @@ class GroupedMesh:
     def __init__(self, owner, shape):
         self.owner = owner
         self._mesh = mesh = owner.FemMesh
-        self.part_volume = shape.Volume
+        self.part_volume, self.faces = shape.Volume, shape.Faces
         self._shapes = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes, "Solid": shape.Solids}
         self._elements = {}
         for group in mesh.Groups:

@@ -1,6 +1,7 @@
 """Solves an analysis by CalculiX: FreeCAD's writer makes the input file, what it leaves out of it on hexahedra is added, FreeCAD loads the results."""
 
 import importlib
+import json
 import os
 import queue
 import re
@@ -10,7 +11,7 @@ import time
 
 import FreeCAD
 
-from . import api, balance, ccx, compat, deck, fem_mesh, job, special_loads
+from . import api, balance, ccx, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh
 
@@ -37,13 +38,15 @@ _PATIENCE = 0.1
 class Solution:
     """What a solve gave: `results`, FreeCAD's result objects; `path` of the input file; `element`; `notes`, lines; `seconds` that CalculiX took.
 
+    `stress_error`: how much stresses differ from cell to cell, and where most (estimate.StressError).
     `balance`: whether the reactions carry the loads (balance.Balance); None where that is not known, of frequencies and large displacements among others.
     """
 
     def __init__(self, path, element, notes):
         self.path, self.element, self.notes = path, element, notes
-        self.results, self.seconds, self.balance = [], 0.0, None
-        self.springs, self.weigh = False, None  # weigh: makes the balance, after the run
+        self.results, self.seconds, self.balance, self.stress_error = [], 0.0, None, None
+        # for what is to be done after the run: a GroupedMesh; whether there are springs; what makes the balance
+        self.mesh, self.springs, self.weigh = None, False, None
 
     @property
     def result(self):
@@ -87,6 +90,12 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
         solution.results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj not in before]
         if not solution.results and tools.solver.AnalysisType != "check":
             raise SolverFailed("CalculiX wrote no results")
+        if solution.results and solution.mesh and tools.solver.AnalysisType in _WITH_REACTIONS:
+            solution.stress_error = estimate.stress_error(solution.path, solution.result, solution.mesh)
+    if solution.stress_error and solution.stress_error.line():
+        FreeCAD.Console.PrintMessage("{}: {}\n".format(analysis.Label, solution.stress_error.line()))
+        if log:
+            log(solution.stress_error.line())
     return solution
 
 
@@ -133,6 +142,8 @@ def write(tools, element=None):
     for kind, _ in special:  # this FreeCAD may know how to write one
         if hasattr(getter.member, "cons_" + kind):
             setattr(getter.member, "cons_" + kind, [])
+    if mesh:
+        _check_captured(tools.analysis, mesh.owner)
     getter.get_mesh_sets()
     notes = _not_written(tools.analysis, tools.solver.AnalysisType, getter.member, special, mesh)
     entries = {name[5:]: getattr(getter.member, name) for name in vars(getter.member) if name.startswith("cons_")}
@@ -151,7 +162,7 @@ def write(tools, element=None):
         raise InvalidInput("{}: elements can be chosen for meshes of Polycube only".format(tools.mesh.Label))
     _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
     solution = Solution(path, chosen, notes)
-    solution.springs = any(kind == "spring" for kind, _ in special)
+    solution.mesh, solution.springs = mesh, any(kind == "spring" for kind, _ in special)
     if solution.springs:
         _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
     if mesh and tools.solver.AnalysisType in _WITH_REACTIONS and tools.solver.GeometricalNonlinearity != "nonlinear":
@@ -193,6 +204,18 @@ def _not_written(analysis, kind_of_analysis, member, special, mesh):
         if kind_of_analysis not in special_loads.ANALYSES.get(kind, (kind_of_analysis,)):
             notes.append("{}: has no effect in an analysis of type {}".format(constraint.Label, kind_of_analysis))
     return notes
+
+
+def _check_captured(analysis, obj):
+    """Raises InvalidInput where a constraint is on faces, edges or vertices that the mesh object does not have as they are: part of the load would be lost."""
+    part = shapes.solid_object(objects.part_of(obj))
+    missing = {name for kind in json.loads(obj.Report)["cad"].values() for name in kind["lost"] + kind["ignored"]}
+    for constraint in analysis.Group:
+        if constraint.isDerivedFrom("Fem::Constraint"):
+            for owner, names in getattr(constraint, "References", []):
+                found = missing.intersection(names) if owner == part else ()
+                if found:
+                    raise InvalidInput("{}: the mesh does not capture {}; make it again".format(constraint.Label, ", ".join(sorted(found))))
 
 
 def _check_found(entries):

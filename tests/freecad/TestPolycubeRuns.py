@@ -11,7 +11,7 @@ import TestPolycubeSolver as solver_tests
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import ccx, deck
+from freecad.polycube import ccx, deck, objects
 
 YOUNG = solve_tests.YOUNG
 
@@ -84,6 +84,15 @@ class Elements(solve_tests.SolveTest):
         solution = self.solve(analysis, part)
         self.assertEqual(types_of(solution.path), {"C3D20R": 31, "C3D20": 1})
         self.assertEqual(solution.notes, ["C3D20 in place of C3D20R in 1 of 32 cells, against hourglassing: 1 at point loads"])
+
+    def test_the_mesh_object_says_which(self):
+        part, analysis = self.bar("Face1")
+        mesh = polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        self.assertEqual(mesh.SolverElement, "Default")
+        mesh.SolverElement = "C3D20"
+        self.assertEqual(types_of(self.solve(analysis, part).path), {"C3D20": 32})
+        self.assertEqual(mesh.MeshState, objects.CURRENT)
+        self.assertEqual(types_of(self.solve(analysis, part, element="C3D20R").path), {"C3D20R": 32})
 
     def test_elements_of_another_order_are_refused(self):
         part, analysis = self.bar("Face1")

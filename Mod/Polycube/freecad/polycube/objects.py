@@ -22,6 +22,8 @@ _RESULTS = [
     ("App::PropertyString", "MeshedOptions", "Polycube Result", "Options of the present mesh, JSON"),
     ("App::PropertyFloatList", "MeshedShape", "Polycube Result", "Signature of the shape of the present mesh"),
 ]
+#: what polycube.solve solves the mesh with: "Default", or one of deck.TYPES
+_ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
 _HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
 
 
@@ -35,6 +37,12 @@ def make(document, part, name="PolycubeMesh"):
 
         PolycubeMeshView(obj.ViewObject)
     return obj
+
+
+def element_of(obj):
+    """The element type that the mesh object asks for, or None."""
+    element = getattr(obj, _ELEMENT, _ELEMENTS[0])
+    return None if element == _ELEMENTS[0] else element
 
 
 def is_polycube(obj):
@@ -127,6 +135,10 @@ class PolycubeMesh(Stateless):
         if compat.needs_part_property(obj):
             obj.addProperty("App::PropertyLinkGlobal", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
         option_table.add_properties(obj)
+        if not hasattr(obj, _ELEMENT):
+            meaning = "Element that polycube.solve takes: by default C3D20R with C3D20 where hourglassing threatens, and C3D8I of first order"
+            obj.addProperty("App::PropertyEnumeration", _ELEMENT, "Polycube", meaning)
+            setattr(obj, _ELEMENT, _ELEMENTS)
         for kind, name, group, meaning in _RESULTS:
             if not hasattr(obj, name):
                 obj.addProperty(kind, name, group, meaning)

@@ -163,6 +163,26 @@ class Mechanical(SolveTest):
         self.assertEqual(solution.notes, [solution.balance.line()])
         self.assertIn("NOT IN BALANCE by 33 %", solution.notes[0])
 
+    def test_transform(self):
+        """A tube whose bore is turned by 0.01 mm, in coordinates round its axis; outside it is held. A moment of 4 pi G h times the angle turns it back."""
+        part, outer, inner, _ = self.tube(20.0, 10.0, 10.0)
+        analysis = self.analysis(part, [outer])
+        turned = self.add(analysis, "Displacement", part, inner, xFree=False, xFix=True, yFree=False, yDisplacement=0.01, zFree=False, zFix=True)
+        self.add(analysis, "Transform", part, inner, TransformType="Cylindrical", NameDispl=[turned])
+        self.document.recompute()
+        solution = self.solve(analysis, part, size=2.5)
+        bore = [vector.Length for vector in self.of_face(solution, analysis, inner, solution.result.DisplacementVectors)]
+        self.assertLess(max(abs(length - 0.01) for length in bore), 1e-6)
+        middle = [
+            vector.Length
+            for node, vector in zip(solution.result.NodeNumbers, solution.result.DisplacementVectors)
+            if abs(math.hypot(*self.mesh(analysis).FemMesh.Nodes[node][:2]) - 15) < 0.1
+        ]
+        # between r and the outer side the angle is as 1/r^2 - 1/20^2
+        exact = 15 * 0.01 / 10 * (1 / 15**2 - 1 / 20**2) / (1 / 10**2 - 1 / 20**2)
+        self.assertTrue(middle)
+        self.near(sum(middle) / len(middle), exact, 0.03)
+
     def test_contact_and_tie(self):
         """A clip of two arms: the lower is held, the upper pressed onto it. The gap closes, and no more; glued together they bend as one."""
         slot = Part.makeBox(40, 10, 1, Vector(10, 0, 5))
@@ -316,6 +336,7 @@ class Heat(SolveTest):
         kind = heat.pop("kind")
         self.add(analysis, kind, part, *([inner] if kind == "Heatflux" else ["Solid1"]), **heat)
         solution = self.solve(analysis, part, size=size, order=order)
+        self.assertEqual(solution.element, "C3D20" if order == 2 else "C3D8I")
         values = self.of_face(solution, analysis, inner, solution.result.Temperature)
         return sum(values) / len(values)
 

@@ -11,17 +11,19 @@ _ACROSS = ((1, 2), (3, 5), (4, 6))
 _ELEMENTS = re.compile(r"^\*ELEMENT\s*,\s*TYPE=(C3D8|C3D20)\s*,(.*)$", re.IGNORECASE)
 
 
-def choose(element, order, mesh, loaded):
+def choose(element, order, mesh, loaded, heat=False):
     """(element type, {type: cells} for cells that get another one, a line that says why or "").
 
-    element: one of TYPES[order], or None for the default. mesh: a GroupedMesh, loaded: nodes with loads or supports of a single point.
+    element: one of TYPES[order], or None for the default. mesh: a GroupedMesh, loaded: nodes with loads or supports of a single point. heat: whether
+    temperatures are looked for: with those C3D20 is the default of second order, its stresses have a third of the error where it changes from place to place
+    (NAFEMS LE11 on one block: 0.4 % and 1.7 %).
     C3D20R takes 8 integration points of 27: better stresses at half the cost of C3D20, but some shapes of deformation without any stiffness. Where cells
     are stacked they hold each other. A free bar of 80 x 5 x 5 mm, one cell in its section, has 376 Hz in place of 4101; a plate of one layer of cells is as
     good as with C3D20. So cells with free sides across from each other in two directions get C3D20, and those at point loads.
     """
     if element is not None and element not in TYPES[order]:
         raise InvalidInput("{} is not an element of a mesh of order {}: {}".format(element, order, ", ".join(TYPES[order])))
-    chosen = element or TYPES[order][0]
+    chosen = element or ("C3D20" if heat and order == 2 else TYPES[order][0])
     if element or chosen != "C3D20R":
         return chosen, {}, ""
     alone, pointed = _alone(mesh), {volume for volume in mesh.Volumes if loaded.intersection(mesh.getElementNodes(volume))} if loaded else set()

@@ -58,8 +58,8 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     """Solves the analysis, loads the results into it in one undo step and returns a Solution.
 
     element: "C3D20R" (the default), "C3D20" of a mesh of second order; "C3D8I" (the default), "C3D8" of one of first; None is what the mesh object's property
-    SolverElement says. By default C3D20R becomes C3D20 in cells where hourglassing threatens; an element that is asked for is taken everywhere. Meshes of
-    other meshers keep FreeCAD's elements.
+    SolverElement says. By default C3D20R becomes C3D20 in cells where hourglassing threatens, and everywhere where temperatures are looked for; an element that
+    is asked for is taken everywhere. Meshes of other meshers keep FreeCAD's elements.
     solver: the analysis' solver object, if it has several. folder: for the files; the default is FreeCAD's. log(line): CalculiX's output and notes.
     cancel(): asked every 0.1 s, true stops the work.
     Raises InvalidInput, SolverFailed with CalculiX's own words, Cancelled; the analysis is then as it was.
@@ -157,7 +157,8 @@ def write(tools, element=None):
     chosen = ""
     if mesh:
         element = element or objects.element_of(mesh.owner)
-        chosen, others, line = deck.choose(element, 2 if len(mesh.getElementNodes(mesh.Volumes[0])) == 20 else 1, mesh, _points(tools.analysis, mesh))
+        order = 2 if len(mesh.getElementNodes(mesh.Volumes[0])) == 20 else 1
+        chosen, others, line = deck.choose(element, order, mesh, _points(tools.analysis, mesh), tools.solver.AnalysisType == "thermomech")
         notes += [line] if line else []
         _change(files.femmesh_file, lambda text: deck.set_types(text, chosen, others))
     elif element:

@@ -158,6 +158,15 @@ class Runs(solve_tests.SolveTest):
             worst.append(found.faces[0][1])
         self.assertLess(worst[1], worst[0])
 
+    def test_an_input_file_in_parts(self):
+        """FreeCAD writes the mesh, and each kind of load, to files of their own."""
+        part, analysis = self.loaded()
+        solver_tests.solver_of(analysis).SplitInputWriter = True
+        self.add(analysis, "Spring", part, "Face3", normalStiffness=1.0)
+        solution = polycube.solve(analysis, folder=self.folder)
+        self.assertEqual(types_of(os.path.join(self.folder, "PolycubeMesh_femesh.inp")), {"C3D20R": 32})
+        self.assertTrue(solution.balance.holds, solution.balance.line())
+
     def test_frequencies(self):
         part, analysis = self.loaded()
         solver = solver_tests.solver_of(analysis)

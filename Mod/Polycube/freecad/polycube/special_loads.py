@@ -18,8 +18,8 @@ from .errors import InvalidInput
 
 #: below this share of its row a coefficient of an equation is rounding
 _ROUNDING = 1e-9
-#: length of springs over the width of their face. CalculiX follows the turning of a spring in linear runs too: a displacement u across it, of a face that is
-#: w wide, gives it the share u/w/2 of that over this length.
+#: Length of springs over the width of their face. CalculiX follows the turning of a spring in linear runs too: a displacement u across one of length l
+#: lengthens it by u^2 / 2 l.
 _LONG = 1000.0
 
 

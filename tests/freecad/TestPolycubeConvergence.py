@@ -19,10 +19,19 @@ class Limits(solve_tests.SolveTest):
             self.assertAlmostEqual(limit, 5, delta=1e-6)
             self.assertAlmostEqual(band, 1.25 * 2 * 0.45**order, delta=1e-6)
 
-    def test_of_values_that_do_not_converge(self):
+    def test_of_values_without_an_order(self):
         self.assertEqual(convergence.extrapolated((1, 0.7, 0.5), (1.0, 2.0, 1.5)), (None, None, 1.0))
-        self.assertEqual(convergence.extrapolated((1, 0.7, 0.5), (1.0, 2.0, 4.0)), (None, None, 2.0))
+        self.assertEqual(convergence.extrapolated((1, 0.7, 0.5), (1.0, 2.0, 4.0)), (None, None, 3.0))
         self.assertEqual(convergence.extrapolated((1, 0.7, 0.5), (1.0, 2.0, 2.0)), (None, 2.0, 0.0))
+        found = convergence.Convergence("stress", [{"cells": cells, "value": value} for cells, value in ((10, 1.0), (30, 2.0), (100, 4.0))])
+        self.assertEqual(found.line(), "stress: 4 on the finest mesh; no order is to be seen, the last three differ by 3 (75 %)")
+
+    def test_of_values_that_are_alike_by_chance(self):
+        """An order that elements do not have is not believed: the band is that of order 2."""
+        order, limit, band = convergence.extrapolated((1, 0.7, 0.49), (1.0, 2.0, 2.001))
+        self.assertAlmostEqual(order, 2)
+        self.assertAlmostEqual(limit, 2.001 + 0.001 * 0.49**2 / (0.7**2 - 0.49**2))
+        self.assertAlmostEqual(band, 1.25 * (limit - 2.001))
 
 
 @solver_tests.needs_calculix

@@ -4,6 +4,7 @@ The limit is Richardson's extrapolation of the three finest, its band Roache's g
 """
 
 import math
+import textwrap
 
 import FreeCAD
 
@@ -14,14 +15,16 @@ from .errors import InvalidInput
 _STEP = 2**0.5
 #: Roache's factor of safety where the order was observed on three meshes
 _SAFETY = 1.25
-#: Orders beyond these are no convergence that an estimate can be built on: elements of second order have 3 for stresses, 4 for energies.
-_ORDERS = (0.3, 5.0)
+#: Below the first there is no convergence that an estimate can be built on. Above the second, which is what energies have with elements of second order, the
+#: last two meshes are alike by chance: the estimate is made with the order below, which gives a wider band.
+_ORDERS, _CAUTIOUS = (0.3, 4.0), 2.0
 
 
 class Convergence:
     """rows: dicts of size, cells, nodes, value, seconds; order observed; limit and band, value in limit - band to limit + band.
 
-    Where the values do not converge, from one mesh to the next by less and less, the limit is None and the band how far they are apart.
+    Where they do not come nearer to each other from mesh to mesh, the limit is None and the band how far the last three are apart: meshes of parts that are
+    no single block are of different structure at different sizes, and small differences have no order.
     """
 
     def __init__(self, quantity, rows):
@@ -36,7 +39,8 @@ class Convergence:
 
     def line(self):
         if self.limit is None:
-            return "{}: {:.6g} on the finest mesh; it does not converge yet, the last meshes differ by {:.2g}".format(self.quantity, self.value, self.band)
+            share = " ({:.2g} %)".format(100 * self.band / abs(self.value)) if self.value else ""
+            return "{}: {:.6g} on the finest mesh; no order is to be seen, the last three differ by {:.2g}{}".format(self.quantity, self.value, self.band, share)
         return "{}: {:.6g} on the finest mesh, {:.6g} +- {:.2g} in the limit, order {:.1f}".format(self.quantity, self.value, self.limit, self.band, self.order)
 
     def plot(self, path):
@@ -51,19 +55,19 @@ class Convergence:
         if self.limit is not None:
             axes.axhline(self.limit, color="grey", linestyle="--")
             axes.axhspan(self.limit - self.band, self.limit + self.band, color="grey", alpha=0.2)
-        axes.set(xlabel="cells", ylabel=self.quantity, title=self.line())
+        axes.set(xlabel="cells", ylabel=self.quantity, title=textwrap.fill(self.line(), 80))
         axes.title.set_fontsize(8)
         figure.tight_layout()
         figure.savefig(path, dpi=100)
 
 
 def extrapolated(widths, values):
-    """(order, limit, band) from the last three of values on cells of these widths; order and limit None where they do not converge."""
+    """(order, limit, band) from the last three of values on cells of these widths; order and limit None where there is no order."""
     (h1, h2, h3), (v1, v2, v3) = widths[-3:], values[-3:]
     coarse, fine = v2 - v1, v3 - v2
     if fine == 0:
         return None, v3, 0.0
-    band = max(abs(coarse), abs(fine))
+    band = max(v1, v2, v3) - min(v1, v2, v3)
     if coarse * fine <= 0:
         return None, None, band
 
@@ -72,8 +76,10 @@ def extrapolated(widths, values):
         return (h1**order - h2**order) / (h2**order - h3**order) - coarse / fine
 
     low, high = _ORDERS
-    if excess(low) > 0 or excess(high) < 0:
+    if excess(low) > 0:
         return None, None, band
+    if excess(high) < 0:
+        low = high = _CAUTIOUS
     for _ in range(60):
         middle = (low + high) / 2
         low, high = (low, middle) if excess(middle) > 0 else (middle, high)

@@ -16,6 +16,9 @@ namespace {
 // as long on the example parts.
 constexpr double kFinishing = 20;
 
+// Share of the time limit after which a search without a mesh looks for any (guess): the last ways take some fits too.
+constexpr double kHurry = 0.5;
+
 MeshResult search_mesh(const Pose& pose, const MeshOptions& options, const Monitor& monitor) {
   Monitor searching(monitor, monitor.deadline());
   Evaluator evaluator(pose, options, searching);
@@ -29,7 +32,12 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, const Monit
     return outcome;
   };
   const Schedule schedule(keeping_plans(options, evaluator.label_order()), last_plans(), budget);
-  const SearchResult found = search(schedule, budget, evaluate, searching);
+  const auto begun = Monitor::Clock::now();
+  const auto hurry = [&] {
+    const auto deadline = searching.deadline();
+    return deadline != Monitor::Clock::time_point::max() && std::chrono::duration<double>(Monitor::Clock::now() - begun) > kHurry * std::chrono::duration<double>(deadline - begun);
+  };
+  const SearchResult found = search(schedule, budget, evaluate, searching, hurry);
   MeshResult result = evaluator.result(found.best);
   result.report.plan = found.plan.name;
   result.report.plans_tried = found.tried;

@@ -124,7 +124,7 @@ Budget budget_of(const std::string& effort) {
 Schedule::Schedule(std::vector<Plan> keeping, std::vector<Plan> last, const Budget& budget)
     : keeping_(std::move(keeping)), last_(std::move(last)), budget_(budget) {}
 
-std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done) const {
+std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done, bool hurry) const {
   std::vector<Plan> queue = keeping_;
   std::size_t at = 0;
   int left = budget_.fits;
@@ -143,6 +143,10 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done) c
     queue.back().may_wait = false;
   }
   while (at < queue.size() && without_tets(done, queue[at])) ++at;
+  if (hurry && !mesh) {
+    at = queue.size();
+    left = 0;
+  }
   if (at < queue.size() && left > (mesh ? budget_.reserved / 2 : budget_.reserved)) return Step{queue[at], left};
   if (mesh) return {};
 
@@ -165,12 +169,12 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done) c
   return {};
 }
 
-SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor) {
+SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor, const std::function<bool()>& hurry) {
   std::vector<Attempt> done;
   std::optional<std::size_t> best;
   bool out_of_time = false;
   int fits = 0;
-  while (const std::optional<Schedule::Step> step = schedule.next(done)) {
+  while (const std::optional<Schedule::Step> step = schedule.next(done, hurry && hurry())) {
     monitor.log("plan " + std::to_string(done.size() + 1) + ", '" + step->plan.name + "', " + std::to_string(fits) + " fits done, " +
                 (best ? "best: '" + done[*best].plan.name + "', " + told(done[*best].outcome) : std::string("no mesh yet")));
     try {

@@ -73,7 +73,8 @@ Budget budget_of(const std::string& effort);
 using Evaluate = std::function<Outcome(const Plan&, const Made* from, int fits)>;
 
 /// The plans in order, as far as they are needed: those that keep all CAD edges; then, while there is no mesh, surrender in the draft with fewest faults
-/// first, then around its inverted cells, then the last plans. Pure: what is next depends on what was done alone.
+/// first, then around its inverted cells, then the last plans. In a hurry, while there is no mesh, what keeps edges or gives them up one by one is left out.
+/// Pure: what is next depends on what was done, and the hurry, alone.
 class Schedule {
  public:
   Schedule(std::vector<Plan> keeping, std::vector<Plan> last, const Budget& budget);
@@ -82,7 +83,7 @@ class Schedule {
     Plan plan;
     int fits = 0;
   };
-  std::optional<Step> next(const std::vector<Attempt>& done) const;
+  std::optional<Step> next(const std::vector<Attempt>& done, bool hurry = false) const;
 
  private:
   std::vector<Plan> keeping_, last_;
@@ -100,7 +101,7 @@ struct SearchResult {
 };
 
 /// The best mesh. Throws what the plan that came furthest failed by; Cancelled where the user says so, or time is out before there is a mesh; InvalidInput of the
-/// first plan at once: it is about what the user demands.
-SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor);
+/// first plan at once: it is about what the user demands. `hurry`: whether time runs short; may be empty.
+SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor, const std::function<bool()>& hurry = {});
 
 }  // namespace polycube

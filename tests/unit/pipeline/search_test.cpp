@@ -78,8 +78,10 @@ struct Search {
   Monitor monitor{};
   Stages stages{};
 
+  std::function<bool()> hurry{};
+
   SearchResult run() {
-    return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor);
+    return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor, hurry);
   }
   /// The failure that it ends in.
   StageFailed failure() {
@@ -99,6 +101,21 @@ TEST(Search, AGoodMeshEndsIt) {
   s.stages.outcomes["a"] = mesh(kFine);
   EXPECT_EQ(s.run().plan.name, "a");
   EXPECT_EQ(s.stages.asked, Names{"a"});
+}
+
+TEST(Search, InAHurryAnyMeshIsLookedFor) {
+  Search s;
+  s.stages.outcomes = {{"a", inverted(3, 1)}, {"b", mesh(kFine)}, {"z", mesh({4, 0, 0.3, 0.3})}};
+  s.hurry = [&] { return !s.stages.asked.empty(); };
+  EXPECT_EQ(s.run().plan.name, "b");  // what time is left goes to better ones
+  EXPECT_EQ(s.stages.asked, (Names{"a", "a but round cells that stay inverted", "y", "z", "b"}));
+}
+
+TEST(Search, AHurryLeavesAMeshTheTimeToGetBetter) {
+  Search s;
+  s.stages.outcomes = {{"a", mesh({1, 0, 0.3, 0.3})}, {"b", mesh(kFine)}};
+  s.hurry = [&] { return !s.stages.asked.empty(); };
+  EXPECT_EQ(s.run().plan.name, "b");
 }
 
 TEST(Search, TheBestOfPoorMeshesWins) {

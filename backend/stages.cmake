@@ -65,6 +65,7 @@ polycube_stage(pad USES core cad)
 polycube_stage(fit USES core cad)
 polycube_stage(fem USES core cad LINKS ${MED_LIBRARY} SYSTEM ${MED_INCLUDE_DIR} ${HDF5_INCLUDE_DIR} ${MPI_C_INCLUDE_DIRS})
 polycube_stage(pipeline USES core cad tet label deform blocks quantize hex pad fit fem)
+polycube_stage(job USES core cad label fem pipeline LINKS ${ZIP_LIBRARY} SYSTEM ${ZIP_INCLUDE_DIR})
 # Boost's max flow copies descriptors that it has not set yet; GCC 12 takes that for a use.
 set_source_files_properties(backend/label/graph_cut.cpp PROPERTIES COMPILE_OPTIONS -Wno-maybe-uninitialized)
 target_compile_definitions(polycube_core PUBLIC POLYCUBE_VERSION="${PROJECT_VERSION}")

@@ -1,4 +1,4 @@
-// The command line: polycube mesh | label | hex. Exit status 0: done, 1: bad arguments or input, 2: no valid result, 3: cancelled.
+// The command line: polycube mesh | label | hex | serve-job | describe. Exit status 0: done, 1: bad arguments or input, 2: no valid result, 3: cancelled.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
@@ -10,11 +10,12 @@
 #include "cli/label_picture.h"
 #include "core/draft.h"
 #include "core/error.h"
-#include "fem/fem.h"
+#include "job/describe.h"
+#include "job/job.h"
 #include "pipeline/hex_map.h"
 #include "pipeline/inspect.h"
 #include "pipeline/label_part.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/part_mesh.h"
 
 namespace polycube {
 namespace {
@@ -103,9 +104,7 @@ struct PartCommand {
 
   CadModel read(const MeshOptions& options, const Monitor& monitor) const {
     monitor.progress("cad", 0);
-    CadModel model = CadModel::read(part, {.object = object, .sew = options.sew}, monitor);
-    polycube::check(options, model.diagonal(), model.faces(), model.edges());
-    return model;
+    return CadModel::read(part, {.object = object, .sew = options.sew}, monitor);
   }
 
   CLI::App& command;
@@ -130,29 +129,19 @@ struct MeshCommand : PartCommand {
 
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    const auto read_start = Monitor::Clock::now();
-    const CadModel model = read(options, monitor);
-    const double read_seconds = seconds_since(read_start);
-    MeshResult result = mesh(model, options, monitor);
-    result.report.stages.insert(result.report.stages.begin(), {"read", read_seconds});
-
+    PartMesh made = mesh_part([&] { return read(options, monitor); }, options, monitor);
     // A mesh that is there is handed out, late or not.
-    const Monitor finishing(monitor, result.report.out_of_time ? Monitor::Clock::time_point::max() : monitor.deadline());
-    const auto fem_start = Monitor::Clock::now();
-    FemMesh fem = build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing);
-    fem.hex_block = result.hex_block;
-    result.report.stages.push_back({"fem", seconds_since(fem_start)});
-    complete(result.report, fem);
+    const Monitor finishing(monitor, finishing_deadline(made.report, monitor));
     const auto write_start = Monitor::Clock::now();
-    write(fem, output, effective_element_type(options), finishing);
-    result.report.stages.push_back({"write", seconds_since(write_start)});
-    if (!report.empty()) write_text(report, to_json(result.report));
+    write(made.fem, output, effective_element_type(options), finishing);
+    made.report.stages.push_back({"write", seconds_since(write_start)});
+    if (!report.empty()) write_text(report, to_json(made.report));
 
-    for (const StageRecord& stage : result.report.stages) monitor.log(stage.name + ": " + std::to_string(stage.seconds) + " s");
-    for (const std::string& warning : result.report.warnings) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
-    const CadCapture& c = result.report.capture;
+    for (const StageRecord& stage : made.report.stages) monitor.log(stage.name + ": " + std::to_string(stage.seconds) + " s");
+    for (const std::string& warning : made.report.warnings) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
+    const CadCapture& c = made.report.capture;
     std::printf("%s: %d hexahedra, %d nodes, scaled Jacobian min %.3f mean %.3f, CAD faces %d/%d edges %d/%d vertices %d/%d, %.1f s\n", output.c_str(),
-                result.report.hexes, result.report.nodes, result.report.quality.min_scaled_jacobian, result.report.quality.mean_scaled_jacobian,
+                made.report.hexes, made.report.nodes, made.report.quality.min_scaled_jacobian, made.report.quality.mean_scaled_jacobian,
                 c.faces_captured, c.faces, c.edges_captured, c.edges, c.vertices_captured, c.vertices, seconds_since(start));
   }
 
@@ -179,6 +168,7 @@ struct LabelCommand : PartCommand {
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
     const CadModel model = read(options, monitor);
+    polycube::check(options, model.diagonal(), model.faces(), model.edges());
     const LabelledPart labelled = label_part(model, options, monitor);
     const Inspection inspection = inspect(labelled);
     for (const std::string& output : outputs) {
@@ -255,6 +245,18 @@ struct HexCommand {
   bool verbose = false;
 };
 
+/// For FreeCAD, which watches over the process itself.
+struct JobCommand {
+  explicit JobCommand(CLI::App& app) : command(*app.add_subcommand("serve-job", "Mesh or labels of the part in a job's folder, for FreeCAD")) {
+    command.set_version_flag("--version", POLYCUBE_VERSION);
+    command.add_option("folder", folder, "Folder with shape.brep and options.json, where the result goes too")->required()->check(CLI::ExistingDirectory);
+    command.add_option("kind", kind, "What to make of them")->capture_default_str()->check(CLI::IsMember({"mesh", "labels"}));
+  }
+
+  CLI::App& command;
+  std::string folder, kind = "mesh";
+};
+
 int complain(const std::string& message, Status status) {
   std::cerr << "polycube: " << one_line(message) << "\n";
   return status;
@@ -308,6 +310,8 @@ int run(int argc, char** argv) {
   const MeshCommand mesh_command(app);
   const LabelCommand label_command(app);
   const HexCommand hex_command(app);
+  const JobCommand job_command(app);
+  const CLI::App* describe_command = app.add_subcommand("describe", "What this program offers, as JSON: options, names and colours of labels, order of nodes");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -317,7 +321,12 @@ int run(int argc, char** argv) {
   }
   if (mesh_command.command.parsed()) return supervised(mesh_command, start);
   if (label_command.command.parsed()) return supervised(label_command, start);
-  return supervised(hex_command, start);
+  if (hex_command.command.parsed()) return supervised(hex_command, start);
+  return guarded([&]() -> int {
+    if (job_command.command.parsed()) return serve_job(job_command.folder, job_kind(job_command.kind));
+    if (describe_command->parsed()) std::cout << describe_engine();
+    return kDone;
+  });
 }
 
 }  // namespace

@@ -7,12 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/monitor.h"
 
 namespace polycube {
-
-/// Exit status of the program.
-enum Status { kDone = 0, kBadInput = 1, kFailed = 2, kStopped = 3 };
 
 /// A word that both processes see: the stage that the engine is in.
 class StageNote {

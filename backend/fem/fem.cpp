@@ -97,6 +97,17 @@ double least_jacobian(const FemMesh& mesh, int hex) {
   return determinants(mesh.order == 2 ? curved_places(mesh.points, nodes) : straight_places(mesh.points, nodes)).head<kSolverPoints>().minCoeff();
 }
 
+std::vector<double> cell_values(const FemMesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&)) {
+  std::vector<double> values;
+  values.reserve(mesh.hexes.size());
+  for (const Hex20& nodes : mesh.hexes) {
+    Hex corners;
+    std::copy_n(nodes.begin(), corners.size(), corners.begin());
+    values.push_back(measure(mesh.points, corners));
+  }
+  return values;
+}
+
 void complete(MeshReport& report, const FemMesh& mesh) {
   report.nodes = static_cast<int>(mesh.points.size());
   report.straightened_edges = static_cast<int>(mesh.straight_nodes.size());

@@ -50,6 +50,12 @@ void complete(MeshReport& report, const FemMesh& mesh);
 /// Smallest Jacobian determinant of a cell at its 8 corners and 27 Gauss points, mm^3 (of the reference cube [-1, 1]^3).
 double least_jacobian(const FemMesh& mesh, int hex);
 
+/// A measure of core/quality.h per cell, of its corners.
+std::vector<double> cell_values(const FemMesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&));
+
+/// What the elements of a group are, by its entity's dimension.
+inline constexpr std::array<const char*, 4> kGroupElements{"", "segments", "quads", "hexes"};
+
 /// SMESH (FreeCAD, MED) winds cells the other way: its node i is our node kSmeshHex20[i]. The first 8 are those of the 8-node cell.
 inline constexpr std::array<int, 20> kSmeshHex20{0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17};
 

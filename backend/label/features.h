@@ -11,6 +11,8 @@ enum class EdgeCapture {
   kLost       ///< cannot, see reason
 };
 
+inline constexpr std::array<const char*, 3> kCaptureNames{"boundary", "feature", "lost"};
+
 struct FeatureEdge {
   int edge = 0;  ///< CAD edge
   EdgeCapture capture = EdgeCapture::kBoundary;

@@ -38,7 +38,7 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   result["valid"] = inspection.violations.valid();
   py::dict edges;
   for (const FeatureEdge& e : part.features.edges)
-    edges[py::int_(e.edge)] = py::make_tuple(std::array{"boundary", "feature", "lost"}.at(static_cast<std::size_t>(e.capture)), e.reason);
+    edges[py::int_(e.edge)] = py::make_tuple(kCaptureNames.at(static_cast<std::size_t>(e.capture)), e.reason);
   result["edges"] = edges;
   return result;
 }

@@ -1,43 +1,28 @@
 #include <pybind11/stl.h>
 
 #include "core/error.h"
-#include "core/report.h"
-#include "fem/fem.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/part_mesh.h"
 #include "python/bindings.h"
 
 namespace polycube::python {
 namespace {
 
-struct Mesh {
-  FemMesh fem;
-  MeshReport report;
-};
+using Mesh = PartMesh;
 
 py::array_t<int> nodes_of(const Mesh& mesh, const std::vector<std::array<int, 20>>& rows) { return to_array<int>(rows, mesh.fem.order == 2 ? 20 : 8); }
 
 py::dict groups(const Mesh& mesh) {
-  static constexpr std::array<const char*, 4> kElements{"", "segments", "quads", "hexes"};
   py::dict all;
   for (const FemGroup& group : mesh.fem.groups) {
     py::dict entry;
     entry["nodes"] = to_array(group.nodes);
-    if (group.entity.dim > 0) entry[kElements[static_cast<std::size_t>(group.entity.dim)]] = to_array(group.elements);
+    if (group.entity.dim > 0) entry[kGroupElements.at(static_cast<std::size_t>(group.entity.dim))] = to_array(group.elements);
     all[py::str(polycube::name(group.entity))] = entry;
   }
   return all;
 }
 
-py::array_t<double> per_cell(const Mesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&)) {
-  std::vector<double> values;
-  values.reserve(mesh.fem.hexes.size());
-  for (const auto& nodes : mesh.fem.hexes) {
-    Hex corners;
-    std::copy_n(nodes.begin(), 8, corners.begin());
-    values.push_back(measure(mesh.fem.points, corners));
-  }
-  return to_array(values);
-}
+py::array_t<double> per_cell(const Mesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&)) { return to_array(cell_values(mesh.fem, measure)); }
 
 py::object report(const Mesh& mesh) { return py::module_::import("json").attr("loads")(to_json(mesh.report)); }
 
@@ -46,22 +31,7 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   return run_released(callbacks, options, [&] {
-    const auto seconds = [](Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); };
-    const auto read_start = Monitor::Clock::now();
-    const CadModel model = read_model(path, brep, object, options, callbacks.monitor);
-    check(options, model.diagonal(), model.faces(), model.edges());
-    const double read_seconds = seconds(read_start);
-    MeshResult result = polycube::mesh(model, options, callbacks.monitor);
-    const auto fem_start = Monitor::Clock::now();
-    std::vector<int> blocks = std::move(result.hex_block);
-    // A mesh that is there is handed out, late or not.
-    const Monitor finishing(callbacks.monitor, result.report.out_of_time ? Monitor::Clock::time_point::max() : callbacks.monitor.deadline());
-    Mesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing), std::move(result.report)};
-    made.fem.hex_block = std::move(blocks);
-    made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
-    made.report.stages.push_back({"fem", seconds(fem_start)});
-    complete(made.report, made.fem);
-    return made;
+    return mesh_part([&] { return read_model(path, brep, object, options, callbacks.monitor); }, options, callbacks.monitor);
   });
 }
 

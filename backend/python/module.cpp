@@ -1,6 +1,7 @@
 // The module _polycube: version, exceptions, orders of nodes.
 #include "core/error.h"
 #include "fem/fem.h"
+#include "job/job.h"
 #include "python/bindings.h"
 
 namespace polycube::python {
@@ -54,6 +55,14 @@ PYBIND11_MODULE(_polycube, module) {
   module.attr("SMESH_HEX20") = order({smesh.begin(), smesh.end()});
   module.attr("SMESH_QUAD4") = order({0, 1, 2, 3});
   module.attr("SMESH_QUAD8") = order({0, 1, 2, 3, 4, 5, 6, 7});
+  module.def(
+      "serve_job",
+      [](const std::string& folder, const std::string& kind) {
+        const py::gil_scoped_release released;
+        return polycube::serve_job(folder, polycube::job_kind(kind));
+      },
+      py::arg("folder"), py::arg("kind") = "mesh",
+      "Does the job in a folder as `polycube serve-job` does and returns the exit status; for a process that does nothing else. See backend/job/README.md.");
   bind_options(module);
   bind_mesh(module);
   bind_labels(module);

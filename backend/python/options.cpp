@@ -1,4 +1,5 @@
 #include "core/error.h"
+#include "job/describe.h"
 #include "python/bindings.h"
 
 namespace polycube::python {
@@ -32,36 +33,6 @@ std::string faces_text(const py::iterable& faces) {
   return text;
 }
 
-py::dict describe(const OptionSpec& option) {
-  const MeshOptions defaults;
-  py::dict entry;
-  entry["name"] = option.name;
-  entry["unit"] = option.unit;
-  entry["meaning"] = option.meaning;
-  entry["type"] = option_type(option);
-  std::visit(
-      [&](auto member) {
-        if constexpr (std::is_same_v<decltype(member), FaceLabels MeshOptions::*>) {
-          entry["default"] = py::dict();
-        } else if constexpr (std::is_same_v<decltype(member), FrameAxes MeshOptions::*>) {
-          entry["default"] = py::list();
-        } else if constexpr (std::is_same_v<decltype(member), Divisions MeshOptions::*> || std::is_same_v<decltype(member), LocalSizes MeshOptions::*> ||
-                             std::is_same_v<decltype(member), FaceList MeshOptions::*>) {
-          entry["default"] = "";
-        } else {
-          entry["default"] = defaults.*member;
-        }
-      },
-      option.member);
-  entry["min"] = option.min;
-  entry["max"] = option.max;
-  py::list choices;
-  for (const std::string& choice : option.choices) choices.append(choice);
-  entry["choices"] = choices;
-  entry["advanced"] = option.advanced;
-  return entry;
-}
-
 }  // namespace
 
 MeshOptions options_from(const py::kwargs& given) {
@@ -91,14 +62,8 @@ CadModel read_model(const std::optional<std::string>& path, const std::optional<
 }
 
 void bind_options(py::module_& module) {
-  module.def(
-      "options",
-      [] {
-        py::list list;
-        for (const OptionSpec& option : option_table()) list.append(describe(option));
-        return list;
-      },
-      "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");
+  module.def("options", []() -> py::object { return py::module_::import("json").attr("loads")(describe_engine())["options"]; },
+             "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");
 }
 
 }  // namespace polycube::python

@@ -7,8 +7,8 @@ import unittest
 
 REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 BACKEND = os.path.join(REPO, "backend")
-# In the order the data flows; pipeline and what sits on top of it come last.
-TOP = ["pipeline", "cli", "python"]
+# What no stage may include but itself.
+TOP = ["job", "cli", "python"]
 THIRD_PARTY = {
     "OCCT": r"(BRep|TopoDS|TopExp|TopAbs|TopLoc|TopTools|Geom|gp_|Standard_|STEP|IFSelect|ShapeFix|Poly_|Bnd_|BOPAlgo|GProp|Shape[A-Z]\w+_|Handle)\w*\.hxx",
     "Gmsh": r"gmsh\w*\.h",
@@ -67,8 +67,8 @@ class Stages(unittest.TestCase):
 
     def test_the_list_was_read(self):
         self.assertEqual(list(self.uses)[0], "core")
-        self.assertEqual(list(self.uses)[-1], "pipeline")
-        self.assertEqual(len(self.uses), 12)
+        self.assertEqual(list(self.uses)[-2:], ["pipeline", "job"])
+        self.assertEqual(len(self.uses), 13)
 
     def test_stages_use_earlier_ones_only(self):
         order = list(self.uses)
@@ -181,6 +181,16 @@ class Files(unittest.TestCase):
         for name in tracked():
             if name.endswith(".py"):
                 self.assertNotRegex(read(os.path.join(REPO, name)), r"""\[["']ccx["'],""", name)
+
+    def test_the_compiled_module_stays_out_of_freecad(self):
+        """Only the child process imports it: FreeCAD's Python may be another one, and its CAD kernel too."""
+        seen = 0
+        for name in tracked():
+            if name.startswith("Mod/") and name.endswith(".py"):
+                seen += 1
+                if os.path.basename(name) != "worker.py":
+                    self.assertNotRegex(read(os.path.join(REPO, name)), r"import _polycube|from _polycube|import_module\(", name)
+        self.assertGreater(seen, 10)
 
     def test_no_randomness_without_a_seed(self):
         pattern = re.compile(r"\b(random_device|srand|std::rand|time\(nullptr\))")

@@ -384,6 +384,14 @@ class BadInput(DocumentTest):
         for size in (0, -1, math.nan, math.inf, 1e4, "wide"):
             with self.subTest(size=size):
                 self.assertIn("size", self.check(box, size=size))
+        self.assertIn("sizes", self.check(box, sizes={"Face3": math.nan}))
+
+    def test_a_property_that_is_no_number(self):
+        obj = polycube.create_fem_mesh(self.box(), size=10)
+        for value in (math.nan, math.inf):
+            obj.TimeLimit = value
+            with self.subTest(value=value), self.assertRaisesRegex(polycube.InvalidInput, r"\Atime_limit: '\w+' is not a number\Z"):
+                polycube.update_fem_mesh(obj)
 
     def test_unknown_option(self):
         self.assertIn("seize", self.check(self.box(), seize=3))

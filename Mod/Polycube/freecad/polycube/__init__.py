@@ -12,12 +12,13 @@ FreeCAD imports this package at start, so it imports nothing heavy.
 """
 
 from .api import converge, create_fem_mesh, labels, mesh, options, solve, update_fem_mesh
-from .errors import Cancelled, InvalidInput, PolycubeError, SolverFailed, StageFailed
+from .errors import Cancelled, InvalidInput, NoMesher, PolycubeError, SolverFailed, StageFailed
 
 __version__ = "0.1.0"
 __all__ = [
     "Cancelled",
     "InvalidInput",
+    "NoMesher",
     "PolycubeError",
     "SolverFailed",
     "StageFailed",

@@ -1,49 +1,138 @@
-"""Finds the compiled module and the Python that runs it in a child process.
+"""The mesher: what it offers, and which one is at hand. Nothing of it is imported into FreeCAD, whose Python and CAD kernel may be others than the mesher's.
 
-Runs inside FreeCAD and in plain Python: the worker imports this file by its path, so it uses the standard library only.
+It runs in a child process, by one protocol (backend/job/README.md), in one of two shapes: the program `polycube`, or a Python that has the compiled module.
 """
 
-import importlib
+import importlib.machinery
+import importlib.util
+import json
 import os
+import re
+import shutil
+import subprocess
 import sys
+from dataclasses import dataclass
+from functools import lru_cache
+
+import FreeCAD
+
+from .errors import NoMesher
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+_MODULE = "_polycube"
+_WORKER = os.path.join(HERE, "worker.py")
+_PROGRAM = "polycube"
+#: Where the preference "Mesher" is kept.
+PREFERENCES = "User parameter:BaseApp/Preferences/Mod/Polycube"
+# Seconds for a mesher to say its version, a guess: it takes a fifth of one, and a machine may be busy. What does not answer is no mesher.
+_PATIENCE = 60
 
 
-def load():
-    """The compiled module `_polycube`: on the module path, or beside this file. ImportError says what to do."""
+@lru_cache(maxsize=None)
+def description():
+    """What every mesher of this version offers: options, label_names, label_colours, smesh_hex20. From engine.json, which `polycube describe` writes."""
+    with open(os.path.join(HERE, "engine.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+@dataclass(frozen=True)
+class Mesher:
+    """One that was found."""
+
+    command: tuple  #: what starts it on a job; the folder and the kind of job are to follow
+    module_folder: str = ""  #: for PYTHONPATH, where the module is in a place that only this Python knows
+
+    def environment(self, folder):
+        """Environment for the child process: temporary files go into the job's folder, which goes with it."""
+        return dict(_environment(self.module_folder), TMPDIR=folder, TEMP=folder, TMP=folder)
+
+
+def find():
+    """The Mesher to take: the module of this Python; what the preference names; the program on PATH. NoMesher says in one line what is missing."""
+    return _find(FreeCAD.ParamGet(PREFERENCES).GetString("Mesher", ""), os.environ.get("PATH", ""), os.environ.get("PYTHONPATH", ""))
+
+
+@lru_cache(maxsize=None)
+def _find(preferred, _path, _python_path):
+    """The search is repeated when what it depends on has changed. One that found nothing is not kept: the user will see to it."""
+    found = _this_python() or (_named(preferred) if preferred else _program(_PROGRAM))
+    if found:
+        return found
+    raise NoMesher(
+        "no mesher is at hand: this Python has no module {}, and {}".format(
+            _MODULE,
+            "the preference Mesher names neither the program {} nor a Python that has the module: {}".format(_PROGRAM, preferred)
+            if preferred
+            else "there is no program {} on PATH; Edit > Preferences > Polycube names one".format(_PROGRAM),
+        )
+    )
+
+
+def _this_python():
+    folder = _module_folder()
+    return _python(_interpreter(), folder) if folder else None
+
+
+def _named(name):
+    """The program, or a Python that has the module."""
+    name = shutil.which(os.path.expanduser(name))
+    return (_program(name) or _python(name, "")) if name else None
+
+
+def _program(name):
+    name = shutil.which(name)
+    return _answering(Mesher((name, "serve-job"))) if name else None
+
+
+def _python(interpreter, module_folder):
+    return _answering(Mesher((interpreter, _WORKER), module_folder)) if interpreter else None
+
+
+def _answering(mesher):
+    """The mesher, if it starts and says its version."""
     try:
-        return importlib.import_module("_polycube")
-    except ModuleNotFoundError as missing:
-        if missing.name != "_polycube":
-            raise
-    sys.path.append(HERE)
-    try:
-        return importlib.import_module("_polycube")
-    except ModuleNotFoundError as missing:
-        if missing.name != "_polycube":
-            raise
-        raise ImportError("Polycube's compiled module is not installed; build it with: sh resources/polycube --help") from None
-    finally:
-        sys.path.remove(HERE)
+        run = subprocess.run(
+            [*mesher.command, "--version"],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=_PATIENCE,
+            env=_environment(mesher.module_folder),
+        )
+    except (OSError, subprocess.SubprocessError, UnicodeDecodeError):
+        return None
+    return mesher if run.returncode == 0 and re.fullmatch(r"\d+(\.\d+)+\s*", run.stdout) else None
 
 
-def environment(folder):
-    """Environment for the child process: the compiled module's folder on PYTHONPATH, temporary files in the job's `folder`, which goes with it."""
-    env = dict(os.environ, TMPDIR=folder, TEMP=folder, TMP=folder)
+def _module_folder():
+    """Where this Python would take the module from, on its module path or beside this file; it is not loaded."""
+    spec = importlib.util.find_spec(_MODULE) or importlib.machinery.PathFinder.find_spec(_MODULE, [HERE])
+    return os.path.dirname(os.path.realpath(spec.origin)) if spec and spec.origin else ""
+
+
+def _environment(module_folder):
+    """Without `module_folder` the mesher is a stranger to this Python: what a bundle like an AppImage sets for its own libraries is not for it."""
+    env = dict(os.environ)
     env.pop("PYTHONHOME", None)
-    module = os.path.dirname(os.path.realpath(load().__file__))
-    env["PYTHONPATH"] = os.pathsep.join([module] + [path for path in [env.get("PYTHONPATH")] if path])
+    if module_folder:
+        env["PYTHONPATH"] = os.pathsep.join([module_folder] + [path for path in [env.get("PYTHONPATH")] if path])
+        return env
+    bundle = os.path.realpath(sys.base_exec_prefix)
+    if bundle not in ("/usr", "/usr/local"):
+        for name in ("LD_LIBRARY_PATH", "PYTHONPATH"):
+            kept = [path for path in env.get(name, "").split(os.pathsep) if path and not (os.path.realpath(path) + os.sep).startswith(bundle + os.sep)]
+            env.pop(name, None)
+            if kept:
+                env[name] = os.pathsep.join(kept)
     return env
 
 
-def python():
-    """The plain interpreter of the Python that runs this code: inside FreeCAD sys.executable is FreeCAD itself."""
+def _interpreter():
+    """The plain interpreter of the Python that runs this code, or None: inside FreeCAD sys.executable is FreeCAD itself."""
     name = "python{}.{}".format(*sys.version_info[:2])
     candidates = [os.path.join(sys.base_exec_prefix, "bin", name), os.path.join(sys.base_exec_prefix, "bin", "python3")]
     if os.name == "nt":
         candidates = [os.path.join(sys.base_exec_prefix, "python.exe"), os.path.join(sys.base_exec_prefix, "bin", "python.exe")]
-    for candidate in candidates:
-        if os.access(candidate, os.X_OK):
-            return candidate
-    return sys.executable
+    if os.path.basename(sys.executable or "").lower().startswith("python"):
+        candidates.append(sys.executable)
+    return next((candidate for candidate in candidates if os.access(candidate, os.X_OK)), None)

@@ -22,6 +22,10 @@ class StageFailed(PolycubeError, RuntimeError):
         return (self.stage + ": " if self.stage else "") + super().__str__() + where
 
 
+class NoMesher(PolycubeError, ImportError):
+    """Neither the compiled module nor the program is there."""
+
+
 class Cancelled(PolycubeError, RuntimeError):
     """The user cancelled, or the time limit passed."""
 

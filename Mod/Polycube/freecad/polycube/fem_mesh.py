@@ -28,21 +28,20 @@ def build(result):
     """
     import Fem
 
-    polycube = engine.load()
     second = result.order == 2
     mesh = Fem.FemMesh()
     for number, (x, y, z) in enumerate(result.nodes.tolist(), 1):
         mesh.addNode(x, y, z, number)
     number = 0
-    cells = result.hexes[:, polycube.SMESH_HEX20 if second else polycube.SMESH_HEX8] + 1
+    order = engine.description()["smesh_hex20"]
+    cells = result.hexes[:, order if second else order[:8]] + 1
     for number, row in enumerate(cells.tolist(), number + 1):
         mesh.addVolume(row, number)
-    quads = result.quads[:, polycube.SMESH_QUAD8 if second else polycube.SMESH_QUAD4] + 1
-    for number, row in enumerate(quads.tolist(), number + 1):
+    for number, row in enumerate((result.quads + 1).tolist(), number + 1):
         mesh.addFace(row, number)
     for number, row in enumerate((result.segments + 1).tolist(), number + 1):
         mesh.addEdge(row, number)
-    offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(quads), "nodes": 1}
+    offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(result.quads), "nodes": 1}
     kinds = {"Face": ("Face", "quads"), "Edge": ("Edge", "segments"), "Vertex": ("Node", "nodes"), "Solid": ("Volume", "hexes")}
     for name, parts in result.groups.items():
         kind, what = kinds[name.rstrip("0123456789")]

@@ -65,6 +65,8 @@ class _FemMenu:
 
 commands.register()
 FreeCADGui.addWorkbench(PolycubeWorkbench())
+FreeCADGui.addIcon("preferences-polycube", resources.icon("Polycube_Workbench"))
+FreeCADGui.addPreferencePage(resources.path("ui", "Preferences.ui"), "Polycube")
 if hasattr(FreeCADGui, "addWorkbenchManipulator"):
     FreeCADGui.addWorkbenchManipulator(_FemMenu())
 else:

@@ -5,7 +5,9 @@ The window drives a Job with QProcess, the API with run().
 """
 
 import json
+import math
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -28,12 +30,13 @@ class Job:
     def __init__(self, shape, options, what="mesh"):
         self.what = what
         self._limit = options.get("time_limit")
+        self._mesher = engine.find()
         self.folder = tempfile.mkdtemp(prefix="polycube-job-")
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
                 file.write(shape.exportBrepToString())
             with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:
-                json.dump(options, file)
+                json.dump({name: _json_value(value) for name, value in options.items()}, file)
         except BaseException:
             self.close()
             raise
@@ -49,7 +52,10 @@ class Job:
 
     def command(self):
         """Program and arguments of the child process."""
-        return [engine.python(), os.path.join(engine.HERE, "worker.py"), self.folder, self.what]
+        return [*self._mesher.command, self.folder, self.what]
+
+    def environment(self):
+        return self._mesher.environment(self.folder)
 
     def out_of_time(self, seconds):
         """Whether a child that has run for so many seconds is to be killed: it has not ended by itself at the time limit."""
@@ -78,7 +84,8 @@ class Job:
                 found = json.load(file)
             if found["kind"] == "StageFailed":
                 raise StageFailed(found["message"], found["stage"], found["entities"])
-            raise _KINDS[found["kind"]](found["message"])
+            # The engine writes options as on the command line, --time-limit; here they are time_limit.
+            raise _KINDS[found["kind"]](re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"]))
         reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
         raise StageFailed("the meshing process ended unexpectedly (status {}): {}".format(status, reason))
 
@@ -90,7 +97,7 @@ def run(job, progress=None, log=None, cancel=None):
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        env=engine.environment(job.folder),
+        env=job.environment(),
         text=True,
     )
     watcher = _Watcher(child, cancel, job)
@@ -114,6 +121,16 @@ def run(job, progress=None, log=None, cancel=None):
     if watcher.reason:
         raise Cancelled(watcher.reason)
     return job.finish(status, last_words)
+
+
+def _json_value(value):
+    """JSON has no NaN and no infinity, which a property may hold; the engine refuses the text and names the option."""
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def _argument_name(flag):
+    """The argument that an option of the command line is here: time_limit for time-limit. "--label" is given once for every face."""
+    return "labels" if flag == "label" else flag.replace("-", "_")
 
 
 def kill_tree(pid):

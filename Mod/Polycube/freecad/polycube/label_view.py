@@ -12,8 +12,7 @@ _FACES_FORWARD, _LINES_FORWARD = 2e-5, 1e-4
 
 def key():
     """The six colours with their names, as rich text."""
-    polycube = engine.load()
-    pairs = zip(polycube.LABEL_NAMES, polycube.LABEL_COLOURS)
+    pairs = zip(engine.description()["label_names"], engine.description()["label_colours"])
     return "&nbsp;&nbsp;".join('<span style="color:rgb{}">&#9632;</span>&nbsp;{}'.format(tuple(colour), name) for name, colour in pairs)
 
 
@@ -47,7 +46,7 @@ class LabelOverlay:
     @staticmethod
     def _faces(labels):
         paint = coin.SoMaterial()
-        paint.diffuseColor.setValues(0, 6, [tuple(channel / 255 for channel in colour) for colour in engine.load().LABEL_COLOURS])
+        paint.diffuseColor.setValues(0, 6, [tuple(channel / 255 for channel in colour) for colour in engine.description()["label_colours"]])
         binding = coin.SoMaterialBinding()
         binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
         hints = coin.SoShapeHints()

@@ -1,5 +1,7 @@
 """Options as scripts give them and as FreeCAD properties, made from the engine's table."""
 
+import copy
+import math
 from numbers import Integral, Real
 
 import FreeCAD
@@ -28,7 +30,7 @@ _DIMENSIONS = {
 
 def table():
     """The engine's options: list of dicts with name, unit, meaning, type, default, min, max, choices, advanced."""
-    return engine.load().options()
+    return copy.deepcopy(engine.description()["options"])
 
 
 def document_options():
@@ -107,7 +109,7 @@ def _number(option, value):
         return bool(value)
     if isinstance(value, str):
         value = float(value)
-    if isinstance(value, bool) or not isinstance(value, Real):
+    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise TypeError
     whole = isinstance(value, Integral) or (option["type"] != "double" and float(value).is_integer())
     return int(value) if whole else float(value)

@@ -154,8 +154,8 @@ class MeshPanel:
             self._meshed_shape = shapes.signature(shape)
             self.job = job.Job(shape, options, what)
             program, *arguments = self.job.command()
-            environment = engine.environment(self.job.folder)
-        except (PolycubeError, ImportError, OSError) as error:
+            environment = self.job.environment()
+        except (PolycubeError, OSError) as error:
             self._close_job()
             self.log(str(error), error=True)
             return
@@ -338,7 +338,7 @@ class MeshPanel:
         """The next of the axes that the face can have, or automatic again."""
         if not self.shown_labels:
             return
-        names = engine.load().LABEL_NAMES
+        names = engine.description()["label_names"]
         name = "Face{}".format(face)
         possible = self.shown_labels.possible(face)
         given = names.index(self.labels[name]) if name in self.labels else None

@@ -1,0 +1,184 @@
+#include "job/job.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/draft.h"
+#include "core/error.h"
+#include "job/npz.h"
+#include "pipeline/inspect.h"
+#include "pipeline/part_mesh.h"
+
+namespace polycube {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// As often as a person sees a bar move; each report is a line that the watching program has to read.
+constexpr auto kProgressInterval = std::chrono::milliseconds(50);
+
+std::string dump(const Json& json) {
+  // A file's name may be no UTF-8.
+  return json.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) throw InvalidInput(path + " cannot be read");
+  return text;
+}
+
+/// A value as parse_options() reads it.
+std::string value_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  std::string text;
+  if (value.is_object()) {
+    for (const auto& [key, one] : value.items()) text += (text.empty() ? "" : ",") + key + "=" + value_text(one);
+  } else if (value.is_array()) {
+    for (const Json& one : value) text += (text.empty() ? "" : one.is_array() ? "/" : ",") + value_text(one);
+  } else {
+    text = dump(value);
+  }
+  return text;
+}
+
+/// Speaks on standard output, and asks whether the parent is still there.
+class Voice {
+ public:
+  explicit Voice(Monitor& monitor) {
+    monitor.on_progress = [this](const std::string& stage, double fraction) { progress(stage, fraction); };
+    monitor.on_log = [this](const std::string& line) { say({{"log", line}}); };
+    monitor.cancel_requested = [parent = getppid()] { return getppid() != parent; };
+  }
+  Voice(const Voice&) = delete;
+  Voice& operator=(const Voice&) = delete;
+
+ private:
+  void progress(const std::string& stage, double fraction) {
+    {
+      const std::lock_guard lock(mutex_);
+      const auto now = Monitor::Clock::now();
+      // The start and the end of a stage always get through.
+      if (fraction > 0 && fraction < 1 && now < next_) return;
+      next_ = now + kProgressInterval;
+    }
+    say({{"progress", Json::array({stage, fraction})}});
+  }
+  void say(const Json& message) {
+    const std::string line = dump(message) + "\n";
+    const std::lock_guard lock(mutex_);
+    std::fwrite(line.data(), 1, line.size(), stdout);
+    std::fflush(stdout);
+  }
+  std::mutex mutex_;
+  Monitor::Clock::time_point next_{};
+};
+
+void save_mesh(const std::string& folder, const PartMesh& mesh) {
+  const FemMesh& fem = mesh.fem;
+  const bool second = fem.order == 2;
+  Npz arrays;
+  arrays.add_rows("nodes", fem.points, 3);
+  arrays.add_rows("hexes", fem.hexes, second ? 20 : 8);
+  arrays.add("hex_block", fem.hex_block);
+  arrays.add_rows("quads", fem.quads, second ? 8 : 4);
+  arrays.add("quad_face", fem.quad_face);
+  arrays.add_rows("quad_hex", fem.quad_hex, 2);
+  arrays.add_rows("segments", fem.segments, second ? 3 : 2);
+  arrays.add("segment_edge", fem.segment_edge);
+  arrays.add("scaled_jacobian", cell_values(fem, scaled_jacobian));
+  arrays.add("edge_ratio", cell_values(fem, edge_ratio));
+  arrays.add("skew", cell_values(fem, skew));
+  arrays.add("warpage", cell_values(fem, warpage));
+  for (const FemGroup& group : fem.groups) {
+    const std::string start = "group/" + name(group.entity) + "/";
+    arrays.add(start + "nodes", group.nodes);
+    if (group.entity.dim > 0) arrays.add(start + kGroupElements.at(static_cast<std::size_t>(group.entity.dim)), group.elements);
+  }
+  arrays.write(folder + "/result.npz");
+  write_text(folder + "/report.json", to_json(mesh.report));
+}
+
+void save_labels(const std::string& folder, const LabelledPart& part, int face_count) {
+  const Inspection inspection = inspect(part);
+  Npz arrays;
+  arrays.add_rows("points", part.tets.points, 3);
+  arrays.add_rows("triangles", part.tets.triangles, 3);
+  arrays.add("triangle_face", part.tets.triangle_face);
+  arrays.add("label", part.labelling.label);
+  const Mat3& frame = part.labelling.frame;
+  arrays.add_rows("frame", std::vector<Vec3>{frame.row(0), frame.row(1), frame.row(2)}, 3);
+  arrays.add("chart", inspection.chart);
+  arrays.add("corners", inspection.corners);
+  arrays.add("turning_points", inspection.turning_points);
+  arrays.write(folder + "/labels.npz");
+  Json plain{{"valid", inspection.violations.valid()}, {"face_label", Json::object()}, {"edges", Json::object()}};
+  const std::vector<int> labels = face_labels(part, face_count);
+  for (int face = 1; face <= face_count; ++face) plain["face_label"][std::to_string(face)] = labels[static_cast<std::size_t>(face)];
+  for (const FeatureEdge& edge : part.features.edges)
+    plain["edges"][std::to_string(edge.edge)] = {kCaptureNames.at(static_cast<std::size_t>(edge.capture)), edge.reason};
+  write_text(folder + "/labels.json", dump(plain) + "\n");
+}
+
+void work(const std::string& folder, JobKind kind) {
+  const MeshOptions options = options_from_json(read_text(folder + "/options.json"));
+  Monitor monitor;
+  const Voice voice(monitor);
+  if (options.time_limit > 0)
+    monitor.set_deadline(Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
+  const auto read = [&] { return CadModel::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor); };
+  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part(read, options, monitor));
+  const CadModel model = read();
+  check(options, model.diagonal(), model.faces(), model.edges());
+  save_labels(folder, label_part(model, options, monitor, Until::kLabels), model.face_count());
+}
+
+int leave_error(const std::string& folder, Status status, const char* kind, const std::exception& error, Json more = Json::object()) {
+  more["kind"] = kind;
+  more["message"] = error.what();
+  write_text(folder + "/error.json", dump(more) + "\n");
+  return status;
+}
+
+}  // namespace
+
+JobKind job_kind(const std::string& name) {
+  if (name == "mesh") return JobKind::kMesh;
+  if (name == "labels") return JobKind::kLabels;
+  throw InvalidInput("a job is mesh or labels, not '" + name + "'");
+}
+
+MeshOptions options_from_json(const std::string& text) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw InvalidInput("the options are no JSON object");
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const auto& [name, value] : json.items())
+    // An empty object or list, as an empty text for them, stands for nothing set.
+    if (!value.is_null() && !(value.is_structured() && value.empty())) given.emplace_back(name, value_text(value));
+  return parse_options(given);
+}
+
+int serve_job(const std::string& folder, JobKind kind) {
+  setsid();
+  try {
+    work(folder, kind);
+    return kDone;
+  } catch (const InvalidInput& error) {
+    return leave_error(folder, kBadInput, "InvalidInput", error);
+  } catch (const StageFailed& error) {
+    Json entities = Json::array();
+    for (const CadRef& entity : error.entities()) entities.push_back(name(entity));
+    return leave_error(folder, kFailed, "StageFailed", error, {{"stage", error.stage()}, {"entities", entities}});
+  } catch (const Cancelled& error) {
+    return leave_error(folder, kStopped, "Cancelled", error);
+  }
+}
+
+}  // namespace polycube

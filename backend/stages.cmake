@@ -54,7 +54,6 @@ add_executable(polycube-tet ${PROJECT_SOURCE_DIR}/backend/tet/worker/main.cpp ${
 target_include_directories(polycube-tet PRIVATE ${PROJECT_SOURCE_DIR}/backend)
 target_compile_options(polycube-tet PRIVATE ${POLYCUBE_WARNINGS})
 target_link_libraries(polycube-tet PRIVATE Eigen3::Eigen gmsh)
-target_compile_definitions(polycube_tet PRIVATE POLYCUBE_TET_WORKER_BUILT="$<TARGET_FILE:polycube-tet>")
 add_dependencies(polycube_tet polycube-tet)
 polycube_stage(label USES core cad)
 polycube_stage(deform USES core)

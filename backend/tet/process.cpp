@@ -90,15 +90,16 @@ std::string outcome(int status, const std::string& error_file) {
 
 std::string find_worker() {
   if (const char* given = std::getenv("POLYCUBE_TET_WORKER")) return given;
-  std::vector<std::filesystem::path> candidates;
+  std::vector<std::filesystem::path> homes;
   std::error_code error;
   Dl_info info;
   if (dladdr(reinterpret_cast<const void*>(&find_worker), &info) && info.dli_fname)
-    candidates.push_back(std::filesystem::weakly_canonical(info.dli_fname, error).parent_path());
-  candidates.push_back(std::filesystem::read_symlink("/proc/self/exe", error).parent_path());
-  candidates.push_back(std::filesystem::path(POLYCUBE_TET_WORKER_BUILT).parent_path());
-  for (const std::filesystem::path& folder : candidates)
-    if (const std::filesystem::path worker = folder / "polycube-tet"; access(worker.c_str(), X_OK) == 0) return worker.string();
+    homes.push_back(std::filesystem::weakly_canonical(info.dli_fname, error).parent_path());
+  homes.push_back(std::filesystem::read_symlink("/proc/self/exe", error).parent_path());
+  // Beside it, and above it as in a build folder; then where it is installed, seen from bin, lib/TRIPLET and lib/python3/dist-packages.
+  for (const std::filesystem::path& home : homes)
+    for (const char* way : {".", "..", "../libexec/polycube", "../../libexec/polycube", "../../../libexec/polycube"})
+      if (const std::filesystem::path worker = (home / way / "polycube-tet").lexically_normal(); access(worker.c_str(), X_OK) == 0) return worker.string();
   throw std::runtime_error("the program polycube-tet is missing");
 }
 

@@ -8,8 +8,8 @@
 
 namespace polycube {
 
-/// Path of polycube-tet: POLYCUBE_TET_WORKER from the environment, else beside the running shared object or program, else where it was
-/// built. Throws std::runtime_error where there is none.
+/// Path of polycube-tet: POLYCUBE_TET_WORKER from the environment, else beside or above the running shared object or program, else in
+/// libexec/polycube of the prefix that it is installed in. Throws std::runtime_error where there is none.
 std::string find_worker();
 
 /// Runs a program to its end. Returns an empty line if it ended with status 0, else what happened ("ran longer than 30 s", "died of signal

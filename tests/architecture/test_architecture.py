@@ -192,6 +192,14 @@ class Files(unittest.TestCase):
                     self.assertNotRegex(read(os.path.join(REPO, name)), r"import _polycube|from _polycube|import_module\(", name)
         self.assertGreater(seen, 10)
 
+    def test_the_version_stands_in_one_place(self):
+        """In package.xml, where FreeCAD's Addon Manager wants it; CMake and the workbench read it there."""
+        version = re.search("<version>(.*)</version>", read(os.path.join(REPO, "Mod", "Polycube", "package.xml"))).group(1)
+        pattern = re.compile(rf"(?<![\d.]){re.escape(version)}(?![\d.])")
+        for name in tracked():
+            if name.endswith(self.SOURCE + (".txt", ".json", ".in")) and not name.startswith("tests/corpus"):
+                self.assertIsNone(pattern.search(read(os.path.join(REPO, name))), name)
+
     def test_no_randomness_without_a_seed(self):
         pattern = re.compile(r"\b(random_device|srand|std::rand|time\(nullptr\))")
         for stage in Stages.uses:

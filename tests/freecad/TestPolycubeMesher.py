@@ -39,7 +39,7 @@ class Order(FolderTest):
             patch.start()
             self.addCleanup(patch.stop)
 
-    def program(self, name, text=ANSWERS.format("serve-job --version", "0.1.0")):
+    def program(self, name, text=ANSWERS.format("serve-job --version", "7.8.9")):
         path = os.path.join(self.folder, name)
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
@@ -78,7 +78,7 @@ class Order(FolderTest):
 
     def test_the_preference_may_be_a_python(self):
         worker = os.path.join(engine.HERE, "worker.py")
-        python = self.program("python", ANSWERS.format(worker + " --version", "0.1.0"))
+        python = self.program("python", ANSWERS.format(worker + " --version", "7.8.9"))
         self.preferences.SetString("Mesher", python)
         self.assertEqual(engine.find().command, (python, worker))
 

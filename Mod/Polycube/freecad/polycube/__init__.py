@@ -11,10 +11,12 @@ Works in FreeCAD and freecadcmd; nothing here needs a window. The work itself ru
 FreeCAD imports this package at start, so it imports nothing heavy.
 """
 
+import os
+import re
+
 from .api import converge, create_fem_mesh, labels, mesh, options, solve, update_fem_mesh
 from .errors import Cancelled, InvalidInput, NoMesher, PolycubeError, SolverFailed, StageFailed
 
-__version__ = "0.1.0"
 __all__ = [
     "Cancelled",
     "InvalidInput",
@@ -30,3 +32,11 @@ __all__ = [
     "solve",
     "update_fem_mesh",
 ]
+
+
+def __getattr__(name):
+    """The version, from the package's description, the one place where it is written."""
+    if name != "__version__":
+        raise AttributeError(name)
+    with open(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..", "package.xml"), encoding="utf-8") as file:
+        return re.search("<version>(.*)</version>", file.read()).group(1)

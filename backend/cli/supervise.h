@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/error.h"
 #include "core/monitor.h"
+#include "core/status.h"
 
 namespace polycube {
 

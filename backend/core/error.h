@@ -9,16 +9,13 @@
 
 namespace polycube {
 
-/// Exit status of the programs.
-enum Status { kDone = 0, kBadInput = 1, kFailed = 2, kStopped = 3 };
-
-/// The caller's fault: a bad file, shape or option. The message is one line. Status kBadInput.
+/// The caller's fault: a bad file, shape or option. The message is one line. Exit status 1.
 class InvalidInput : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A stage could not do its work on valid input. Status kFailed.
+/// A stage could not do its work on valid input. Exit status 2.
 class StageFailed : public std::runtime_error {
  public:
   StageFailed(std::string stage, const std::string& reason, std::vector<CadRef> entities = {})
@@ -32,7 +29,7 @@ class StageFailed : public std::runtime_error {
   std::vector<CadRef> entities_;
 };
 
-/// The user cancelled or the time limit passed. Status kStopped.
+/// The user cancelled or the time limit passed. Exit status 3.
 class Cancelled : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

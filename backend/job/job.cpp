@@ -11,6 +11,7 @@
 
 #include "core/draft.h"
 #include "core/error.h"
+#include "core/status.h"
 #include "job/npz.h"
 #include "pipeline/inspect.h"
 #include "pipeline/part_mesh.h"

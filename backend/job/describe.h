@@ -5,8 +5,8 @@
 
 namespace polycube {
 
-/// JSON object, indented, one line end at its end: "options" (the table of core/options.h, in its order), "label_names" and "label_colours" (red,
-/// green, blue, 0 to 255) by label, "smesh_hex20" (fem/fem.h). The workbench's engine.json is this text.
+/// JSON object, indented, one line end at its end: "options" (the table of core/options.h, in its order), "label_names" and "label_colours"
+/// (red, green, blue, 0 to 255) by label, "smesh_hex20" (fem/fem.h). The workbench's engine.json is this text.
 std::string describe_engine();
 
 }  // namespace polycube

@@ -133,7 +133,8 @@ void work(const std::string& folder, JobKind kind) {
   Monitor monitor;
   const Voice voice(monitor);
   if (options.time_limit > 0)
-    monitor.set_deadline(Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
+    monitor.set_deadline(Monitor::Clock::now() +
+                         std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
   const auto read = [&] { return CadModel::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor); };
   if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part(read, options, monitor));
   const CadModel model = read();

@@ -61,7 +61,7 @@ void Npz::write(const std::string& path) const {
     if (zip_set_file_compression(archive.get(), static_cast<zip_uint64_t>(index), ZIP_CM_STORE, 0) != 0) throw fail();
   }
   if (zip_close(archive.get()) != 0) throw fail();
-  archive.release();  // zip_close has freed it
+  static_cast<void>(archive.release());  // zip_close has freed it
 }
 
 }  // namespace polycube

@@ -5,7 +5,9 @@
 namespace polycube {
 namespace {
 
-double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
+double seconds_since(Monitor::Clock::time_point start) {
+  return std::chrono::duration<double>(Monitor::Clock::now() - start).count();
+}
 
 }  // namespace
 
@@ -21,7 +23,8 @@ PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& opt
   MeshResult result = mesh(model, options, monitor);
   const auto fem_start = Monitor::Clock::now();
   const Monitor finishing(monitor, finishing_deadline(result.report, monitor));
-  PartMesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing), std::move(result.report)};
+  PartMesh made{build_fem_mesh(model, result.mesh, result.association, {options.order, options.threads}, finishing),
+                std::move(result.report)};
   made.fem.hex_block = std::move(result.hex_block);
   made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
   made.report.stages.push_back({"fem", seconds_since(fem_start)});

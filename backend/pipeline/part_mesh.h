@@ -16,11 +16,12 @@ struct PartMesh {
   MeshReport report;  ///< its stages begin with "read" and end with "fem"
 };
 
-/// Reads the part, checks the options against it, meshes it and makes elements of the order asked for. The caller's monitor carries progress,
-/// cancel and deadline. Throws what `read` and mesh() throw.
+/// Reads the part, checks the options against it, meshes it and makes elements of the order asked for. The caller's monitor carries
+/// progress, cancel and deadline. Throws what `read` and mesh() throw.
 PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor);
 
-/// For what is left to do with a mesh: one that the time limit ended the search for is handed out all the same, so there is no deadline then.
+/// For what is left to do with a mesh: one that the time limit ended the search for is handed out all the same, so there is no deadline
+/// then.
 Monitor::Clock::time_point finishing_deadline(const MeshReport& report, const Monitor& monitor);
 
 }  // namespace polycube

@@ -31,6 +31,43 @@ class Packages(unittest.TestCase):
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)
 
 
+class Copies(FolderTest):
+    """What is copied into the tree of another system."""
+
+    def write(self, name, text):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        with open(self.path(name), "w", encoding="ascii") as file:
+            file.write(text)
+
+    def read(self, name):
+        with open(self.path(name), encoding="ascii") as file:
+            return file.read()
+
+    def copy(self):
+        subprocess.run(["sh", os.path.join(REPO, "tests", "copy_files"), self.path("from"), self.path("to")], check=True, timeout=60)
+
+    def test_a_change_is_younger_than_what_was_built_before(self):
+        """Also where the change itself is older, and what did not change keeps its time."""
+        for name in ("changed.cpp", "same.cpp", "gone.cpp", "script"):
+            self.write("from/" + name, "1")
+        subprocess.run(["git", "init", "-q", self.path("from")], check=True)
+        self.copy()
+        self.write("to/built", "of 1")
+        before = 1e9
+        for name in ("changed.cpp", "same.cpp", "gone.cpp", "script", "built"):
+            os.utime(self.path("to/" + name), (before, before))
+        self.write("from/changed.cpp", "2")
+        os.utime(self.path("from/changed.cpp"), (before - 1000, before - 1000))
+        os.chmod(self.path("from/script"), 0o755)
+        os.remove(self.path("from/gone.cpp"))
+        self.copy()
+        self.assertEqual(set(os.listdir(self.path("to"))), {"changed.cpp", "same.cpp", "script", "built"})
+        self.assertEqual(self.read("to/changed.cpp"), "2")
+        self.assertGreater(os.path.getmtime(self.path("to/changed.cpp")), before)
+        self.assertEqual(os.path.getmtime(self.path("to/same.cpp")), before)
+        self.assertTrue(os.access(self.path("to/script"), os.X_OK))
+
+
 class Solver(FolderTest):
     def program(self, name):
         with open(self.path(name), "w", encoding="ascii") as file:

@@ -5,6 +5,8 @@
 #include <Interface_Graph.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <Interface_Protocol.hxx>
+#include <Standard_Version.hxx>
+#include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <algorithm>
 #include <array>
@@ -115,6 +117,15 @@ void check_numbers(const std::string& path, const std::string& statements) {
   }
 }
 
+/// What OpenCASCADE reads a STEP file into: since 7.8 it takes the one that it is given, and crashes where there is none.
+opencascade::handle<StepData_StepModel> empty_step_model() {
+  opencascade::handle<StepData_StepModel> model = new StepData_StepModel;
+#if OCC_VERSION_HEX >= 0x070800
+  model->InternalParameters.InitFromStatic();
+#endif
+  return model;
+}
+
 /// What an IGES file says of its entities: the first 64 columns of the lines that have a P in column 73.
 std::string parameters_of(const std::string& iges) {
   std::istringstream lines(iges);
@@ -132,6 +143,7 @@ bool load_entities(const opencascade::handle<XSControl_WorkSession>& session, co
   check_reals(path, text);
   if (stream) check_numbers(path, text);
   opencascade::handle<Interface_InterfaceModel> model;
+  if (stream) model = empty_step_model();
   const opencascade::handle<IFSelect_WorkLibrary>& library = session->WorkLibrary();
   const int status = stream ? library->ReadStream(path.c_str(), *stream, model, session->Protocol()) : library->ReadFile(path.c_str(), model, session->Protocol());
   if (status != 0 || model.IsNull()) return false;

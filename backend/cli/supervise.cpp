@@ -17,6 +17,7 @@
 #include <thread>
 
 #include "core/draft.h"
+#include "core/faults.h"
 #include "core/temporary_folder.h"
 
 namespace polycube {
@@ -58,6 +59,7 @@ class SharedNote {
   no_core.rlim_cur = 0;
   setrlimit(RLIMIT_CORE, &no_core);
   setenv("TMPDIR", folder.c_str(), 1);
+  end_by_faults();
   std::exit(work(note));
 }
 

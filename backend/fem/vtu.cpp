@@ -1,6 +1,7 @@
 // VTK unstructured grid: hexes, boundary quads; per cell the scaled Jacobian, the CAD face (0 inside) and the block. Arrays in base64.
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "core/quality.h"
@@ -28,9 +29,11 @@ template <typename T>
 void append_array(std::string& text, const char* type, const char* attributes, const std::vector<T>& values) {
   const std::uint64_t bytes = values.size() * sizeof(T);
   append(text, "<DataArray type=\"%s\" %s format=\"binary\">\n", type, attributes);
-  // VTK decodes the length and the data as two runs of base64.
-  text += base64({reinterpret_cast<const unsigned char*>(&bytes), sizeof bytes});
-  text += base64({reinterpret_cast<const unsigned char*>(values.data()), bytes});
+  // One run of base64: VTK reads two as well, meshio with a Python of 2025 does not.
+  std::vector<unsigned char> block(sizeof bytes + bytes);
+  std::memcpy(block.data(), &bytes, sizeof bytes);
+  if (bytes > 0) std::memcpy(block.data() + sizeof bytes, values.data(), bytes);
+  text += base64(block);
   text += "\n</DataArray>\n";
 }
 

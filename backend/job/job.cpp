@@ -11,6 +11,7 @@
 
 #include "core/draft.h"
 #include "core/error.h"
+#include "core/faults.h"
 #include "core/status.h"
 #include "job/npz.h"
 #include "pipeline/inspect.h"
@@ -169,6 +170,7 @@ MeshOptions options_from_json(const std::string& text) {
 
 int serve_job(const std::string& folder, JobKind kind) {
   setsid();
+  end_by_faults();
   try {
     work(folder, kind);
     return kDone;

@@ -1,6 +1,8 @@
 """Mesh files read back by other programs: meshio and FreeCAD."""
 
+import base64
 import unittest
+from xml.etree import ElementTree
 
 import meshio
 import numpy as np
@@ -11,6 +13,15 @@ import Fem
 
 
 class Meshio(FolderTest):
+    def test_arrays_of_a_vtu_are_one_run_of_base64(self):
+        """Padding in the middle is an error to some of those who read it."""
+        _polycube.mesh(brep=plate().exportBrepToString(), size=4).write(self.path("a.vtu"))
+        arrays = [array for array in ElementTree.parse(self.path("a.vtu")).iter("DataArray") if array.get("format") == "binary"]
+        self.assertGreater(len(arrays), 5)
+        for array in arrays:
+            content = base64.b64decode(array.text.strip(), validate=True)
+            self.assertEqual(int.from_bytes(content[:8], "little"), len(content) - 8, array.get("Name"))
+
     def test_vtu(self):
         for order, kind, quad in ((1, "hexahedron", "quad"), (2, "hexahedron20", "quad8")):
             mesh = _polycube.mesh(brep=plate().exportBrepToString(), size=4, order=order)

@@ -31,6 +31,7 @@
 #include <STEPControl_Writer.hxx>
 #include <ShapeCustom.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
+#include <Standard_Version.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -43,6 +44,10 @@
 #include <numbers>
 #include <sstream>
 #include <vector>
+#if OCC_VERSION_HEX >= 0x070800
+#include <StepData_StepModel.hxx>
+#include <UnitsMethods.hxx>
+#endif
 
 namespace polycube::shapes {
 namespace {
@@ -374,6 +379,10 @@ void write_step(const std::string& brep, const std::string& path, const std::str
   STEPControl_Controller::Init();
   Interface_Static::SetCVal("write.step.unit", unit.c_str());
   STEPControl_Writer writer;
+#if OCC_VERSION_HEX >= 0x070800
+  // It names the unit and leaves the numbers in mm otherwise.
+  writer.Model()->SetWriteLengthUnit(UnitsMethods::GetLengthFactorValue(Interface_Static::IVal("write.step.unit")));
+#endif
   writer.Transfer(parse(brep), STEPControl_AsIs);
   writer.Write(path.c_str());
   Interface_Static::SetCVal("write.step.unit", "MM");

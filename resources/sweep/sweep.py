@@ -106,6 +106,15 @@ def parse(arguments):
     return given, options
 
 
+def _heed_interrupts():
+    """What a shell starts in the background ignores them, and so would all that it starts."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def _stop(*_):
+    raise KeyboardInterrupt
+
+
 def snakemake(given, work, lock):
     """Runs the workflow to its end and returns its exit status, or None where the user stopped it."""
     command = [sys.executable, "-m", "snakemake", "--snakefile", os.path.join(HERE, "Snakefile"), "--directory", work,
@@ -115,7 +124,7 @@ def snakemake(given, work, lock):
     command += ["--profile", given.profile, "--jobs", str(given.jobs)] if given.profile else ["--cores", str(given.jobs * given.threads)]
     with open(os.path.join(work, "snakemake.log"), "a", encoding="utf-8") as log:
         # In a session of its own, and told of the end by us alone: Snakemake lets jobs that run come to their end, a stopped sweep does not wait for them.
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=log, start_new_session=True, pass_fds=[lock])
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=log, start_new_session=True, pass_fds=[lock], preexec_fn=_heed_interrupts)
         try:
             return process.wait()
         except KeyboardInterrupt:
@@ -158,7 +167,7 @@ def sweep(program, given, options):
 
 
 def main():
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    signal.signal(signal.SIGTERM, _stop)
     try:
         given, options = parse(sys.argv[2:])
         return sweep(sys.argv[1], given, options)

@@ -125,7 +125,10 @@ class SweepTest(FolderTest):
 class GoesOn(SweepTest):
     def stop_at_wait(self, program, stop):
         """Starts the sweep and calls stop(process) once the program waits. Returns what the process says."""
-        process = subprocess.Popen(self.command(*MESH, program=program), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            self.command(*MESH, program=program), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN),  # as what a shell starts in the background
+        )
         fifo = None
         while fifo is None and process.poll() is None:
             try:

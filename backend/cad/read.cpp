@@ -5,7 +5,11 @@
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Standard_Failure.hxx>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -62,7 +66,9 @@ FileShape read_brep(std::istream& stream, const Monitor& monitor) {
 
 FileShape read_shape(const std::string& path, const ReadOptions& options, const Monitor& monitor) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw InvalidInput(path + ": no such file");
+  if (!std::filesystem::exists(path, error)) throw InvalidInput(path + ": no such file");
+  if (!std::filesystem::is_regular_file(path, error)) throw InvalidInput(path + " is no file");
+  if (access(path.c_str(), R_OK) != 0) throw InvalidInput(path + " cannot be read: " + std::strerror(errno));
   if (std::filesystem::file_size(path, error) == 0) throw InvalidInput(path + ": the file is empty");
   const std::string extension = lower_extension(path);
   const bool document = extension == ".fcstd";

@@ -16,8 +16,9 @@ extern "C" void on_signal(int) { g_signalled = 1; }
 
 Console::Console(Monitor& monitor, StageNote& note, bool verbose)
     : note_(note), terminal_(isatty(STDERR_FILENO) != 0), verbose_(verbose), start_(Monitor::Clock::now()), last_(start_) {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  for (const int stop : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(stop, on_signal) == SIG_IGN && stop == SIGHUP) std::signal(stop, SIG_IGN);
+  }
   monitor.cancel_requested = [] { return g_signalled != 0; };
   monitor.on_progress = [this](const std::string& stage, double fraction) { progress(stage, fraction); };
   if (verbose) monitor.on_log = [this](const std::string& line) { log(line); };

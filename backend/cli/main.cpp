@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -96,6 +97,7 @@ struct PartCommand {
       check_writable(report);
       targets.push_back(report);
     }
+    check_apart(targets, {part});
     Supervision result{.outputs = std::move(targets)};
     if (const double limit = arguments.options().time_limit; limit > 0)
       result.deadline = start + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(limit));
@@ -216,6 +218,7 @@ struct HexCommand {
       check_writable(*path);
       result.outputs.push_back(*path);
     }
+    check_apart(result.outputs, {tets, labels, map});
     return result;
   }
 
@@ -275,6 +278,8 @@ int guarded(const Work& work) {
     return complain("stage " + e.stage() + ": " + e.what() + (entities.empty() ? "" : entities + ")"), kFailed);
   } catch (const Cancelled& e) {
     return complain(e.what(), kStopped);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return complain((e.path1().empty() ? std::string("files") : e.path1().string()) + ": " + e.code().message(), kBadInput);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", kFailed);
   } catch (const std::exception& e) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -34,6 +35,8 @@ volatile std::sig_atomic_t g_stops = 0;
 
 extern "C" void on_stop(int) { g_stops = g_stops + 1; }
 
+constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
+
 /// Memory that the two processes share.
 class SharedNote {
  public:
@@ -53,7 +56,7 @@ class SharedNote {
 
 [[noreturn]] void be_child(const std::function<int(StageNote&)>& work, StageNote& note, pid_t parent, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for the mesh of a parent that was killed
-  if (getppid() != parent) _exit(kStopped);
+  if (getppid() != parent || g_stops > 0) _exit(kStopped);
   rlimit no_core{};
   getrlimit(RLIMIT_CORE, &no_core);
   no_core.rlim_cur = 0;
@@ -66,7 +69,7 @@ class SharedNote {
 /// Waits for the child; forwards what stops it. True where it had to be killed.
 bool await(pid_t child, Monitor::Clock::time_point deadline, int& status) {
   using Clock = Monitor::Clock;
-  const Clock::time_point end = deadline == Clock::time_point::max() ? deadline : deadline + kGrace;
+  Clock::time_point end = deadline == Clock::time_point::max() ? deadline : deadline + kGrace;
   std::optional<Clock::time_point> killed;
   bool forwarded = false;
   for (;;) {
@@ -76,6 +79,7 @@ bool await(pid_t child, Monitor::Clock::time_point deadline, int& status) {
     if (g_stops > 0 && !forwarded) {
       kill(child, SIGTERM);
       forwarded = true;
+      end = std::min(end, Clock::now() + kGrace);
     }
     if (!killed && (g_stops > 1 || Clock::now() > end)) {
       kill(child, SIGKILL);
@@ -97,23 +101,29 @@ std::string StageNote::get() const {
   return text;
 }
 
+void watch_for_stops() {
+  std::signal(SIGPIPE, SIG_IGN);  // nobody has to read what is printed
+  for (const int stop : kStops) {
+    if (std::signal(stop, on_stop) == SIG_IGN && stop == SIGHUP) std::signal(stop, SIG_IGN);  // under nohup
+  }
+}
+
 int supervise(const std::function<int(StageNote&)>& work, const Supervision& supervision) {
+  watch_for_stops();
   const TemporaryFolder folder;
   SharedNote note;
   std::fflush(nullptr);
   const pid_t parent = getpid(), child = fork();
   if (child < 0) throw std::runtime_error(std::string("no process for the engine: ") + std::strerror(errno));
   if (child == 0) be_child(work, note.get(), parent, folder.path());
-  std::signal(SIGINT, on_stop);
-  std::signal(SIGTERM, on_stop);
   int status = 0;
   const bool killed = await(child, supervision.deadline, status);
   if (!killed && WIFEXITED(status)) return WEXITSTATUS(status);
 
   for (const std::string& output : supervision.outputs) Draft::discard(output, child);
   if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
-  if (killed) {
-    std::fprintf(stderr, "polycube: %s\n", g_stops > 1 ? "cancelled" : "out of time");
+  if (killed || g_stops > 0) {
+    std::fprintf(stderr, "polycube: %s\n", g_stops > 0 ? "cancelled" : "out of time");
     return kStopped;
   }
   const std::string stage = note.get().get();

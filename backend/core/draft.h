@@ -2,10 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace polycube {
 
-/// A file beside the target that takes its name with publish(); without that it is removed.
+/// A file beside the target that takes its name with publish(); without that it is removed. Of a link the file that it leads to is replaced.
 class Draft {
  public:
   explicit Draft(const std::string& target);
@@ -26,7 +27,10 @@ class Draft {
 /// Writes the text by way of a Draft. Throws InvalidInput naming the target.
 void write_text(const std::string& target, const std::string& text);
 
-/// Throws InvalidInput where the target's folder is missing or not writable, or the target is a folder. For a check before the work.
+/// Throws InvalidInput where the target's folder is missing or not writable, or the target is a folder, a device or the like. For a check before the work.
 void check_writable(const std::string& target);
+
+/// Throws InvalidInput where two targets are one file, or a target is a file that is read.
+void check_apart(const std::vector<std::string>& targets, const std::vector<std::string>& inputs);
 
 }  // namespace polycube

@@ -2,14 +2,18 @@
 
 #include <stdlib.h>
 
-#include <stdexcept>
 #include <system_error>
+
+#include "core/error.h"
 
 namespace polycube {
 
 TemporaryFolder::TemporaryFolder() {
-  std::string pattern = (std::filesystem::temp_directory_path() / "polycube-XXXXXX").string();
-  if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make a folder in " + std::filesystem::temp_directory_path().string());
+  std::error_code error;
+  const std::filesystem::path parent = std::filesystem::temp_directory_path(error);
+  if (error) throw InvalidInput("the folder for temporary files, TMPDIR, does not exist");
+  std::string pattern = (parent / "polycube-XXXXXX").string();
+  if (!mkdtemp(pattern.data())) throw InvalidInput("no folder can be made in that for temporary files, " + parent.string() + "; TMPDIR names another");
   path_ = pattern;
 }
 

@@ -106,6 +106,10 @@ class MeshArrays(unittest.TestCase):
         with self.assertRaises(polycube.Cancelled):
             polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, cancel=lambda: True)
 
+    def test_what_cancel_raises_ends_the_job(self):
+        with self.assertRaises(ZeroDivisionError):
+            polycube.mesh(Part.makeBox(40, 20, 10), size=0.5, cancel=lambda: 1 / 0)
+
     def test_no_folder_is_left(self):
         def stop(*_):
             raise KeyboardInterrupt

@@ -12,7 +12,7 @@ import TestPolycubeSolver as solver_tests
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import deck, special_loads
+from freecad.polycube import deck, fem_mesh, special_loads
 
 calculix = solver_tests.calculix
 whole_loads.UNITS.update(normalStiffness="N/m", tangentialStiffness="N/m", CFlux="kg*mm^2/s^3", HeatSource="W/kg", DissipationRate="W/kg", Diameter="mm")
@@ -312,6 +312,27 @@ class Special(SolveTest):
         self.add(analysis, "Pressure", other, "Face2", Pressure=1.0)
         with self.assertRaisesRegex(polycube.InvalidInput, "^Pressure: nothing of the mesh is where it acts"):
             self.solve(analysis, part)
+
+    def test_what_the_part_has_no_more_is_refused_by_name(self):
+        part, analysis = self.bar("Face1")
+        polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        self.add(analysis, "Force", part, "Face6", Force=100.0)
+        part.Shape = Part.makeCylinder(5, 40)
+        self.document.recompute()
+        self.assertEqual(fem_mesh.constrained_faces(part, analysis), ["Face1"])
+        polycube.update_fem_mesh(self.mesh(analysis))
+        with self.assertRaisesRegex(polycube.InvalidInput, "^Force: .* has no Face6$"):
+            polycube.solve(analysis, folder=self.folder)
+
+    def test_an_edge_that_is_a_point_is_refused(self):
+        part = self.part(Part.makeCone(10, 0, 20))
+        tip = next(i for i, edge in enumerate(part.Shape.Edges, 1) if edge.Length < 1e-9)
+        base = next(i for i, face in enumerate(part.Shape.Faces, 1) if isinstance(face.Surface, Part.Plane))
+        analysis = self.analysis(part, ["Face{}".format(base)])
+        polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        self.add(analysis, "Force", part, "Edge{}".format(tip), Force=100.0)
+        with self.assertRaisesRegex(polycube.InvalidInput, "^Force: Edge{} of .* is a point$".format(tip)):
+            polycube.solve(analysis, folder=self.folder)
 
     def test_equations_of_a_node(self):
         self.assertEqual(special_loads.reduced([[0, 0, 1]], ()), [[(3, 1.0)]])

@@ -138,6 +138,55 @@ class Cli(FolderTest):
         self.assertEqual(error, "polycube: cancelled\n")
         self.assertEqual(os.listdir(self.folder), ["part.brep"])
 
+    def test_a_terminal_that_closes(self):
+        part = self.save(plate())
+        temporary = os.path.join(self.folder, "tmp")
+        os.mkdir(temporary)
+        process = subprocess.Popen(
+            [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--size", "0.4"], stderr=subprocess.PIPE, text=True, env=dict(os.environ, TMPDIR=temporary)
+        )
+        while not os.listdir(temporary):
+            time.sleep(0.01)
+        process.send_signal(signal.SIGHUP)
+        _, error = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, error), (3, "polycube: cancelled\n"))
+        self.assertEqual(os.listdir(temporary), [])
+
+    def test_nobody_reads_what_is_printed(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        run = subprocess.run([PROGRAM, "mesh", self.save(box()), "-o", self.path("a.inp"), "-v"], stdout=writing, stderr=writing)
+        os.close(writing)
+        self.assertEqual(run.returncode, 0)
+        self.assertTrue(os.path.exists(self.path("a.inp")))
+
+    def test_no_file_is_written_over(self):
+        part = self.save(box())
+        with open(part) as file:
+            before = file.read()
+        self.refuses(part, "--report", part)
+        self.assertIn("written twice", self.refuses(part, "--report", self.path("out.inp")))
+        self.assertIn("no regular file", self.refuses(part, "--report", "/dev/null"))
+        os.symlink(part, self.path("link.json"))
+        self.assertIn("written over", self.refuses(part, "--report", self.path("link.json")))
+        with open(part) as file:
+            self.assertEqual(file.read(), before)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["link.json", "part.brep"])
+
+    def test_a_link_is_followed(self):
+        with open(self.path("real.inp"), "w"):
+            pass
+        os.symlink(self.path("real.inp"), self.path("a.inp"))
+        self.assertEqual(self.run_program("mesh", self.save(box()), "-o", self.path("a.inp")).returncode, 0)
+        self.assertTrue(os.path.islink(self.path("a.inp")))
+        self.assertGreater(os.path.getsize(self.path("real.inp")), 1000)
+
+    def test_no_place_for_temporary_files(self):
+        run = subprocess.run(
+            [PROGRAM, "mesh", self.save(box()), "-o", self.path("a.inp")], capture_output=True, text=True, env=dict(os.environ, TMPDIR=self.path("nowhere"))
+        )
+        self.assertEqual((run.returncode, run.stderr), (1, "polycube: the folder for temporary files, TMPDIR, does not exist\n"))
+
     def test_label_files(self):
         part = self.save(cylinder())
         run = self.run_program("label", part, "-o", self.path("l.vtu"), "-o", self.path("l.png"), "--report", self.path("l.json"), "--pixels", "400", "--numbers")

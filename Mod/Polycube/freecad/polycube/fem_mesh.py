@@ -2,6 +2,8 @@
 
 import importlib.util
 
+import FreeCAD
+
 from . import compat, engine, shapes
 
 #: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
@@ -137,6 +139,13 @@ def _references(member, solid):
     return [name for obj, names in getattr(member, "References", []) if obj == solid for name in names if name]
 
 
+def exists(shape, name):
+    """Whether the shape has the entity, Face3 or the like."""
+    kind = name.rstrip("0123456789")
+    entities = {"Face": "Faces", "Edge": "Edges", "Vertex": "Vertexes", "Solid": "Solids"}.get(kind)
+    return bool(entities) and 1 <= int(name[len(kind) :] or 0) <= len(getattr(shape, entities))
+
+
 def constrained_faces(part, analysis):
     """Names of the part's faces that carry constraints of the analysis, or have an edge or vertex that does; no mesh may do without them."""
     solid = shapes.solid_object(part)
@@ -149,7 +158,9 @@ def constrained_faces(part, analysis):
         if not member.isDerivedFrom("Fem::Constraint"):
             continue
         for name in _references(member, solid):
-            if name.startswith("Face"):
+            if not exists(shape, name):
+                FreeCAD.Console.PrintWarning("{}: {} has no {} any more\n".format(member.Label, solid.Label, name))
+            elif name.startswith("Face"):
                 found.add(int(name[4:]))
             elif not name.startswith("Solid"):
                 around = shape.ancestorsOfType(shape.getElement(name), type(faces[0]))

@@ -118,6 +118,8 @@ def run(job, progress=None, log=None, cancel=None):
         watcher.finished.set()
         watcher.join()
         last_words = stderr.text()
+    if watcher.error:
+        raise watcher.error
     if watcher.reason:
         raise Cancelled(watcher.reason)
     return job.finish(status, last_words)
@@ -164,22 +166,26 @@ class _Drain(threading.Thread):
 
 
 class _Watcher(threading.Thread):
-    """Kills the child when `cancel` says so or the job is out of time; `reason` tells which."""
+    """Kills the child when `cancel` says so or the job is out of time; `reason` tells which. What `cancel` raises ends the job too; `error` is it."""
 
     def __init__(self, child, cancel, job):
         super().__init__(daemon=True)
         self.finished = threading.Event()
         self.reason = None
+        self.error = None
         self._child, self._cancel, self._job = child, cancel, job
         self._start = time.monotonic()
         self.start()
 
     def run(self):
         while not self.finished.wait(0.1):
-            if self._cancel and self._cancel():
-                self.reason = "cancelled"
-            elif self._job.out_of_time(time.monotonic() - self._start):
-                self.reason = "out of time"
-            if self.reason:
+            try:
+                if self._cancel and self._cancel():
+                    self.reason = "cancelled"
+            except Exception as error:
+                self.error = error
+            if self._job.out_of_time(time.monotonic() - self._start):
+                self.reason = self.reason or "out of time"
+            if self.reason or self.error:
                 kill_tree(self._child.pid)
                 return

@@ -114,6 +114,7 @@ def prepared(analysis, solver, folder):
         (solver,) = ours
     elif solver not in ours:
         raise InvalidInput("{} is no solver of the kind CalculiX Standard in {}".format(getattr(solver, "Label", solver), analysis.Label))
+    _check_references(analysis)
     from femtools import ccxtools
 
     tools = ccxtools.FemToolsCcx(analysis, solver, test_mode=True)
@@ -207,6 +208,20 @@ def _not_written(analysis, kind_of_analysis, member, special, mesh):
         if kind_of_analysis not in special_loads.ANALYSES.get(kind, (kind_of_analysis,)):
             notes.append("{}: has no effect in an analysis of type {}".format(constraint.Label, kind_of_analysis))
     return notes
+
+
+def _check_references(analysis):
+    """Raises InvalidInput where a constraint refers to what its part does not have, or to an edge without length: FreeCAD's searches end in errors of Python there."""
+    for constraint in analysis.Group:
+        if not constraint.isDerivedFrom("Fem::Constraint"):
+            continue
+        for obj, names in getattr(constraint, "References", []):
+            for name in filter(None, names):  # no name is the whole part
+                shape = getattr(obj, "Shape", None)
+                if not shape or not fem_mesh.exists(shape, name):
+                    raise InvalidInput("{}: {} has no {}".format(constraint.Label, obj.Label, name))
+                if name.startswith("Edge") and shape.getElement(name).Length < 1e-7:  # OpenCASCADE's Precision::Confusion
+                    raise InvalidInput("{}: {} of {} is a point".format(constraint.Label, name, obj.Label))
 
 
 def _check_captured(analysis, obj):

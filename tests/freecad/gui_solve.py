@@ -2,6 +2,7 @@
 
 import os
 import stat
+import tempfile
 from unittest import mock
 
 import FemGui
@@ -61,7 +62,7 @@ class Solve(GuiTest):
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
     def test_cancel(self):
-        program = os.path.join(os.environ.get("TMPDIR", "."), "polycube-sleeper-{}".format(os.getpid()))
+        program = os.path.join(tempfile.gettempdir(), "polycube-sleeper-{}".format(os.getpid()))
         with open(program, "w", encoding="ascii") as file:
             file.write("#!/bin/sh\nexec sleep 600\n")
         os.chmod(program, os.stat(program).st_mode | stat.S_IXUSR)

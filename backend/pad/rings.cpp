@@ -231,26 +231,27 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
   }
   Candidate best;
   best.gain = kLeastGain;
-  const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap) {
+  const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap = 0) {
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
     if (rate(whole, patch, candidate) && candidate.gain > best.gain + handicap) best = std::move(candidate);
   };
   for (const Stretch& stretch : border.stretches(bad)) {
     const auto band = band_of(whole, patch, stretch);
-    consider(stretch, band, 0);
-    if (all.size() <= 4 * band.size()) consider(stretch, all, 0);
+    consider(stretch, band);
+    if (all.size() <= 4 * band.size()) consider(stretch, all);
     const Stretch shorter = trimmed(stretch);
-    if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter), 0);
+    if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter));
     for (int reach = 2; reach <= kReach; ++reach) {
       if (2 * reach + 1 >= static_cast<int>(stretch.nodes.size())) break;
       const Stretch part = window(stretch, sectors[bad].node, reach);
-      consider(part, band_of(whole, patch, part), 0);
+      consider(part, band_of(whole, patch, part));
     }
   }
   // Round one node alone, where longer sheets leave a cell flat: they take cells from a corner that is two cells away.
+  if (!is_lost(whole, sectors[bad])) return best;
   for (const Stretch& stretch : border.stretches(bad)) {
-    if (stretch.nodes.size() < 4 || !is_lost(whole, sectors[bad])) continue;
+    if (stretch.nodes.size() < 4) continue;
     const Stretch part = window(stretch, sectors[bad].node, 1);
     consider(part, band_of(whole, patch, part), kFlat);
   }

@@ -40,6 +40,37 @@ def set_quantity(obj, name, value, unit):
     setattr(obj, name, value if plain else FreeCAD.Units.Quantity("{} {}".format(value, unit)))
 
 
+#: units of the plain numbers that FreeCAD 0.20 has for loads
+UNITS = {
+    "AmbientTemp": "K",
+    "CFlux": "kg*mm^2/s^3",
+    "DFlux": "W/m^2",
+    "Diameter": "mm",
+    "DissipationRate": "W/kg",
+    "FilmCoef": "W/m^2/K",
+    "Force": "N",
+    "HeatSource": "W/kg",
+    "Pressure": "MPa",
+    "Temperature": "K",
+    "initialTemperature": "K",
+    "normalStiffness": "N/m",
+    "tangentialStiffness": "N/m",
+}
+
+
+def add_constraint(analysis, kind, part, names, **values):
+    """A constraint of FreeCAD's ("Force", "Pressure", ...) on entities of the part ("Face3", ...; none: on all of it). Values that UNITS lists are in those units."""
+    obj = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(analysis.Document, kind))[0]
+    if names:
+        obj.References = [(part, name) for name in names]
+    for name, value in values.items():
+        if name in UNITS:
+            set_quantity(obj, name, value, UNITS[name])
+        else:
+            setattr(obj, name, value)
+    return obj
+
+
 def write(analysis, solver, folder):
     """Writes the input file into `folder`; returns FreeCAD's tools with its path, `inp_file_name`."""
     os.makedirs(folder, exist_ok=True)

@@ -7,7 +7,6 @@ import re
 from unittest import mock
 
 import FreeCAD
-import ObjectsFem
 import Part
 import TestPolycubeSolver as solver_tests
 from FreeCAD import Vector
@@ -17,9 +16,6 @@ from freecad import polycube
 from freecad.polycube import load_sets, objects
 
 calculix = solver_tests.calculix
-
-#: properties that FreeCAD 0.20 has as plain numbers in these units
-UNITS = {"Force": "N", "Pressure": "MPa", "DFlux": "W/m^2", "FilmCoef": "W/m^2/K", "AmbientTemp": "K", "Temperature": "K", "initialTemperature": "K"}
 
 
 class LoadTest(solver_tests.SolverTest):
@@ -39,15 +35,7 @@ class LoadTest(solver_tests.SolverTest):
         return part, names[outer], names[inner], (names[0.0], names[height])
 
     def add(self, analysis, kind, part, *names, **values):
-        obj = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(self.document, kind))[0]
-        if names:
-            obj.References = [(part, name) for name in names]
-        for name, value in values.items():
-            if name in UNITS:
-                calculix.set_quantity(obj, name, value, UNITS[name])
-            else:
-                setattr(obj, name, value)
-        return obj
+        return calculix.add_constraint(analysis, kind, part, names, **values)
 
     def written(self, analysis):
         """Path of the input file that FreeCAD writes."""

@@ -15,7 +15,6 @@ from freecad import polycube
 from freecad.polycube import deck, fem_mesh, special_loads
 
 calculix = solver_tests.calculix
-whole_loads.UNITS.update(normalStiffness="N/m", tangentialStiffness="N/m", CFlux="kg*mm^2/s^3", HeatSource="W/kg", DissipationRate="W/kg", Diameter="mm")
 
 #: of steel, in N, mm, t
 YOUNG, DENSITY = 210000.0, 7.85e-9

@@ -100,62 +100,67 @@ class ClosedWithoutAWord(GuiTest):
     def close_document(self):
         FreeCAD.closeDocument(self.name)
 
-    def check(self, begin):
-        """Whatever was begun ends, in each way of closing: the child process, its folder, the preview, the panel itself."""
+    def each_way(self, work):
+        """work(close, edit, panel) as a subtest for each way to open the panel and to close it."""
         for close in (FreeCADGui.Control.closeDialog, self.close_document):
             for edit in (False, True):
                 with self.subTest(close=close.__name__, edit=edit):
                     if not self.is_open():
                         self.setUp()
-                    panel = self.open(edit)
-                    scene = FreeCADGui.activeDocument().activeView().getSceneGraph()
-                    before = scene.getNumChildren()
-                    begin(panel)
-                    pid, folder = int(panel.process.processId()), panel.job.folder
-                    self.assertTrue(os.path.exists(folder))
-                    close()
-                    process_events()
-                    self.assertFalse(FreeCADGui.Control.activeDialog())
-                    self.assertIsNone(panel.form)
-                    self.assertIsNone(panel.process)
-                    self.assertIsNone(panel.overlay)
-                    self.assertFalse(os.path.exists("/proc/{}".format(pid)))
-                    self.assertFalse(os.path.exists(folder))
-                    self.assertFalse(task_panel.MeshPanel.is_meshing(panel.obj))
-                    if self.is_open():
-                        FreeCADGui.activeDocument().resetEdit()
-                        self.assertEqual(scene.getNumChildren(), before)
-                        self.assertEqual(len(self.document.Objects), 2 if edit else 1)
+                    work(close, edit, self.open(edit))
+
+    def check(self, begin):
+        """Whatever was begun ends, in each way of closing: the child process, its folder, the preview, the panel itself."""
+
+        def work(close, edit, panel):
+            scene = FreeCADGui.activeDocument().activeView().getSceneGraph()
+            before = scene.getNumChildren()
+            begin(panel)
+            pid, folder = int(panel.process.processId()), panel.job.folder
+            self.assertTrue(os.path.exists(folder))
+            close()
+            process_events()
+            self.assertFalse(FreeCADGui.Control.activeDialog())
+            self.assertIsNone(panel.form)
+            self.assertIsNone(panel.process)
+            self.assertIsNone(panel.overlay)
+            self.assertFalse(os.path.exists("/proc/{}".format(pid)))
+            self.assertFalse(os.path.exists(folder))
+            self.assertFalse(task_panel.MeshPanel.is_meshing(panel.obj))
+            if self.is_open():
+                FreeCADGui.activeDocument().resetEdit()
+                self.assertEqual(scene.getNumChildren(), before)
+                self.assertEqual(len(self.document.Objects), 2 if edit else 1)
+
+        self.each_way(work)
 
     def test_with_all_marks_on(self):
         """What marks the mesh and what listens in the 3D view goes with the panel, without an error, after an Apply too."""
-        for close in (FreeCADGui.Control.closeDialog, self.close_document):
-            for edit in (False, True):
-                with self.subTest(close=close.__name__, edit=edit):
-                    if not self.is_open():
-                        self.setUp()
-                    panel = self.open(edit)
-                    panel.form.element_size.setProperty("rawValue", 20.0)
-                    self.press("Apply")
-                    self.assertTrue(wait_until(lambda: not panel.process))
-                    panel.form.preview.setChecked(True)
-                    self.assertTrue(wait_until(lambda: not panel.process))
-                    panel.form.worst.selectRow(0)
-                    panel.form.colours.setChecked(True)
-                    view, clicks = panel.obj.ViewObject, panel.clicks
-                    self.assertTrue(view.HighlightedNodes)
-                    with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
-                        with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed:
-                            close()
-                            process_events()
-                    self.assertEqual(error.call_args_list, [])
-                    removed.assert_called_once_with()
-                    self.assertIsNone(panel.form)
-                    self.assertIsNone(panel.clicks)
-                    if self.is_open():
-                        self.assertEqual(list(view.HighlightedNodes), [])
-                        FreeCADGui.activeDocument().resetEdit()
-                        self.document.removeObject(panel.obj.Name)
+
+        def work(close, edit, panel):
+            panel.form.element_size.setProperty("rawValue", 20.0)
+            self.press("Apply")
+            self.assertTrue(wait_until(lambda: not panel.process))
+            panel.form.preview.setChecked(True)
+            self.assertTrue(wait_until(lambda: not panel.process))
+            panel.form.worst.selectRow(0)
+            panel.form.colours.setChecked(True)
+            view, clicks = panel.obj.ViewObject, panel.clicks
+            self.assertTrue(view.HighlightedNodes)
+            with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
+                with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed:
+                    close()
+                    process_events()
+            self.assertEqual(error.call_args_list, [])
+            removed.assert_called_once_with()
+            self.assertIsNone(panel.form)
+            self.assertIsNone(panel.clicks)
+            if self.is_open():
+                self.assertEqual(list(view.HighlightedNodes), [])
+                FreeCADGui.activeDocument().resetEdit()
+                self.document.removeObject(panel.obj.Name)
+
+        self.each_way(work)
 
     def test_while_it_meshes(self):
         def begin(panel):

@@ -7,7 +7,6 @@ import sys
 from unittest import mock
 
 import FreeCAD
-import ObjectsFem
 import numpy as np
 
 import frd
@@ -20,9 +19,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(HERE)), "resourc
 import calculix  # noqa: E402
 
 YOUNG, POISSON, DENSITY = 210000.0, 0.3, 7.85e-9  # N/mm2, -, t/mm3
-#: units of FreeCAD 0.20's plain numbers
-UNITS = {"Force": "N", "Pressure": "MPa", "DFlux": "W/m^2", "FilmCoef": "W/m^2/K", "AmbientTemp": "K", "Temperature": "K", "initialTemperature": "K"}
-UNITS.update(HeatSource="W/kg", DissipationRate="W/kg")
 #: a face is where it is asked for within this share of the part's size
 NEAR = 1e-6
 
@@ -62,15 +58,7 @@ class Model:
         return (low_u + high_u) / 2, (low_v + high_v) / 2
 
     def add(self, kind, names, **values):
-        obj = self.analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(self.document, kind))[0]
-        if names:
-            obj.References = [(self.part, name) for name in names]
-        for name, value in values.items():
-            if name in UNITS:
-                calculix.set_quantity(obj, name, value, UNITS[name])
-            else:
-                setattr(obj, name, value)
-        return obj
+        return calculix.add_constraint(self.analysis, kind, self.part, names, **values)
 
     def hold(self, names, axes):
         """No displacement along the axes, "xz" say."""

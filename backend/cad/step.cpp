@@ -87,6 +87,15 @@ bool is_whole(const std::string& path) {
   return tail.find("END-ISO-10303-21") != std::string::npos;
 }
 
+/// Whether the file has the beginning that the format demands, comments aside.
+bool begins_as_step(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  constexpr std::streamsize kHead = 4096;  // a byte order mark or comments may come before
+  std::string head(kHead, '\0');
+  file.read(head.data(), kHead);
+  return head.find("ISO-10303-21;") != std::string::npos;
+}
+
 /// Leaves out the items that are null or among `tainted` (by number in the model).
 void drop_items(const Interface_InterfaceModel& model, const Representation& representation, const std::vector<char>& tainted) {
   const auto items = representation->Items();
@@ -185,7 +194,7 @@ FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   std::istream stream(&file);
   const bool loaded = load_entities(reader.WS(), path, &stream);
   monitor.check();
-  if (!loaded) throw InvalidInput(path + ": not a STEP file");
+  if (!loaded) throw InvalidInput(path + (begins_as_step(path) ? ": the STEP file is damaged or cut off" : ": not a STEP file"));
   const int faults = leave_out_damaged(reader, path);
   const opencascade::handle<OcctProgress> progress = new OcctProgress(monitor);
   reader.TransferRoots(progress->Start());

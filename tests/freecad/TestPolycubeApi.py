@@ -182,6 +182,16 @@ class Options(unittest.TestCase):
         for three in (3, numpy.int32(3), "Face3"):
             plain = self.plain(labels={three: "+X"}, sizes={three: 1}, keep_faces={three})
             self.assertEqual(plain, {"labels": {"Face3": "+X"}, "sizes": {"Face3": 1}, "keep_faces": ["Face3"]})
+
+    def test_a_name_is_one_name_and_given_once(self):
+        for option, value in (("sizes", 1), ("divisions", 2), ("labels", "+X")):
+            with self.subTest(option):
+                self.assertEqual(list(self.plain(**{option: {" Face3 ": value}})[option]), ["Face3"])
+                with self.assertRaisesRegex(polycube.InvalidInput, option + ": Face3 is given twice"):
+                    self.plain(**{option: {3: value, "Face3": value}})
+                for name in ("Face3=2,X", "Face3,X", "Face3=2", True, None, 3.0):
+                    with self.assertRaisesRegex(polycube.InvalidInput, option + " is not (faces|edges)"):
+                        self.plain(**{option: {name: value}})
         self.assertEqual(self.plain(coarsest=numpy.bool_(True), size=None), {"coarsest": True})
 
     def test_what_cannot_be_read_is_one_line(self):

@@ -1,6 +1,7 @@
 """polycube.converge: a series of meshes, the limit of a result, a table and a plot."""
 
 import os
+from unittest import mock
 
 import TestPolycubeSolve as solve_tests
 import TestPolycubeSolver as solver_tests
@@ -93,8 +94,9 @@ class Series(solve_tests.SolveTest):
             with self.subTest(said), self.assertRaisesRegex(polycube.InvalidInput, said):
                 polycube.converge(analysis, sizes, quantity)
         self.document.removeObject("Support")
-        with self.assertRaisesRegex(polycube.InvalidInput, "Neither"):
-            polycube.converge(analysis, folder=self.folder)
+        with mock.patch("tempfile.tempdir", self.folder), self.assertRaisesRegex(polycube.InvalidInput, "Neither"):
+            polycube.converge(analysis)
+        self.assertEqual(os.listdir(self.folder), [])
         before.remove("Support")
         self.assertEqual(([member.Name for member in analysis.Group], mesh.CharacteristicLengthMax.Value), (before, 5))
         self.add(analysis, "Fixed", part, "Face1")

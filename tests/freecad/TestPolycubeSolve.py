@@ -148,6 +148,18 @@ class Mechanical(SolveTest):
             self.add(analysis, "Pressure", part, ends[1], Pressure=pressure)
         self.near(Vector(*self.solve(analysis, part).balance.reactions), Vector(0, 0, 3 * math.pi * 300 - 2000))
 
+    def test_a_face_that_is_named_twice_is_loaded_once(self):
+        part, outer, inner, ends = self.tube(20.0, 10.0, 30.0)
+        analysis = self.analysis(part, [ends[0]])
+        for kind, names, properties in (
+            ("Pressure", [ends[1]] * 2, {"Pressure": 1.0}),
+            ("Force", [outer, inner, outer], {"Force": 300, "Direction": (part, [ends[1]])}),
+            ("Gear", [outer] * 2, {"Diameter": 60, "Force": 200, "Direction": (part, [ends[1]])}),
+        ):
+            self.add(analysis, kind, part, names[0], **properties).References = [(part, name) for name in names]
+        solution = self.solve(analysis, part)
+        self.near(Vector(*solution.balance.reactions), Vector(0, 0, math.pi * 300 - 500))
+
     def test_loads_that_get_lost_are_told(self):
         part, analysis = self.bar("Face1")
         self.add(analysis, "Pressure", part, "Face2", Pressure=5.0)

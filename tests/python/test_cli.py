@@ -111,6 +111,16 @@ class Cli(FolderTest):
                 self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
         self.assertGreater(statuses[1], 10)
 
+    def test_files_that_are_cut_off_are_told_from_other_files(self):
+        plate().exportStep(self.path("whole.step"))
+        with open(self.path("whole.step")) as file:
+            text = file.read()
+        for name, content, said in (("cut.step", text[: len(text) // 2], "damaged or cut off"), ("other.step", "not this\n", "not a STEP file")):
+            with self.subTest(name):
+                with open(self.path(name), "w") as file:
+                    file.write(content)
+                self.assertIn(said, self.refuses(self.path(name)))
+
     def test_no_arguments(self):
         for arguments in ([], ["mesh"], ["nonsense"], ["mesh", "a.step"]):
             run = self.run_program(*arguments)

@@ -370,6 +370,14 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   if (draft.plan.refine != 1) r.warnings.push_back("the cells are finer than asked for");
   for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
   for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
+  for (const auto& patch : result.association.patches) {
+    if (patch.size() < 2 || !std::binary_search(r.capture.ignored_faces.begin(), r.capture.ignored_faces.end(), patch[0])) continue;
+    constexpr std::size_t kNamed = 6;  // more would hide the other warnings; the report has them all
+    std::string faces;
+    for (std::size_t i = 0; i < std::min(patch.size(), kNamed); ++i) faces += (i == 0 ? "" : ", ") + name({2, patch[i]});
+    if (patch.size() > kNamed) faces += " and " + std::to_string(patch.size() - kNamed) + " more";
+    r.warnings.push_back(faces + " share their mesh faces, as the feature angle asks: a load on one of them acts on all");
+  }
   return result;
 }
 

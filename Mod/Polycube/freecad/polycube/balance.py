@@ -9,6 +9,7 @@ import os
 import re
 
 from . import compat, shapes
+from .load_sets import references
 
 #: share of the loads by which reactions may miss them
 TOLERANCE = 0.005
@@ -75,7 +76,7 @@ def _loads(mesh, member, special):
         yield direction * float(compat.newtons(force)), abs(float(compat.newtons(force))), loads
     for entry in member.cons_pressure:
         pressure = compat.plain(entry["Object"].Pressure, "MPa") * (-1 if entry["Object"].Reversed else 1)
-        faces = [face for obj, names in entry["Object"].References for name in names for face in mesh.elements(obj.Shape.getElement(name), "Face")]
+        faces = [face for obj, name in references(entry["Object"]) for face in mesh.elements(obj.Shape.getElement(name), "Face")]
         loads = {node: -pressure * numpy.array(vector) for node, vector in mesh.area_vectors(faces).items()}
         yield sum(loads.values(), numpy.zeros(3)), abs(pressure) * sum(mesh.weights(faces).values()), loads
     if member.cons_selfweight or member.cons_centrif:

@@ -101,7 +101,7 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
     (mesh,) = meshes
     measure, name = _measure(quantity, mesh)
     series, rows = list(_options(mesh, sizes)), []
-    solver.prepared(analysis, solver_object, folder)
+    folder = solver.prepared(analysis, solver_object, folder).working_dir  # one for all sizes
     with api.transaction(analysis.Document, "Convergence series"):
         for options in series:
             option_table.write(mesh, options)

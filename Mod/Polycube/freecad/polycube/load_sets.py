@@ -207,14 +207,19 @@ def _replaced(original, members, fill):
     return get
 
 
-def _references(constraint):
-    return [(obj, name, obj.Shape.getElement(name)) for obj, names in constraint.References for name in names]
+def references(constraint):
+    """(object, name) of what the constraint acts on, each once, however often it is named."""
+    return list({(obj.Document.Name, obj.Name, name): (obj, name) for obj, names in constraint.References for name in names}.values())
+
+
+def _shapes(constraint):
+    return [(obj, name, obj.Shape.getElement(name)) for obj, name in references(constraint)]
 
 
 def _fill_force(mesh, member):
     force = member["Object"]
     found = []
-    for obj, name, shape in _references(force):
+    for obj, name, shape in _shapes(force):
         kind, size = _SPREAD.get(shape.ShapeType, (None, None))
         elements = mesh.elements(shape, kind)
         if not elements:
@@ -236,7 +241,7 @@ def _fill_force(mesh, member):
 
 def _fill_pressure(mesh, member):
     faces = []
-    for _, _, shape in _references(member["Object"]):
+    for _, _, shape in _shapes(member["Object"]):
         if shape.ShapeType != "Face" or not mesh.elements(shape, "Face"):
             return False
         faces += mesh.getccxVolumesByFace(shape)

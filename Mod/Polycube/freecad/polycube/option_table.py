@@ -59,9 +59,9 @@ def _plain(option, value):
         return value  # as on the command line
     try:
         if kind == "labels":
-            return {_face(face): str(axis) for face, axis in value.items()}
+            return _by_name(name, {face: str(axis) for face, axis in value.items()})
         if kind in ("sizes", "divisions"):
-            return {_face(what): amount if isinstance(amount, str) and kind == "divisions" else _number(option, amount) for what, amount in value.items()}
+            return _by_name(name, {what: amount if isinstance(amount, str) and kind == "divisions" else _number(option, amount) for what, amount in value.items()})
         if kind == "faces":
             return [_face(face) for face in value]
         if kind == "frame":
@@ -85,12 +85,23 @@ def _plain(option, value):
         raise InvalidInput("{} is not {}".format(name, wanted.get(kind, "a number"))) from None
 
 
+def _by_name(option, values):
+    """{"Face3": .5} of {3: .5}. Raises InvalidInput where one face is given by its name and by its number."""
+    found = {}
+    for what, value in values.items():
+        face = _face(what)
+        if face in found:
+            raise InvalidInput("{}: {} is given twice".format(option, face))
+        found[face] = value
+    return found
+
+
 def _face(face):
-    """The name of a face that may be given by its number; other names as they are."""
-    if isinstance(face, Integral):
+    """The name of a face that may be given by its number; other names as they are. TypeError for what cannot be one name."""
+    if isinstance(face, Integral) and not isinstance(face, bool):
         return "Face{}".format(face)
-    if isinstance(face, str):
-        return face
+    if isinstance(face, str) and not set(face) & set("=,"):
+        return face.strip()
     raise TypeError
 
 

@@ -60,7 +60,8 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     element: "C3D20R" (the default), "C3D20" of a mesh of second order; "C3D8I" (the default), "C3D8" of one of first; None is what the mesh object's property
     SolverElement says. By default C3D20R becomes C3D20 in cells where hourglassing threatens, and everywhere where temperatures are looked for; an element that
     is asked for is taken everywhere. Meshes of other meshers keep FreeCAD's elements.
-    solver: the analysis' solver object, if it has several. folder: for the files; the default is FreeCAD's. log(line): CalculiX's output and notes.
+    solver: the analysis' solver object, if it has several. folder: for the files, which stay; the default is the one that FreeCAD's preferences name.
+    log(line): CalculiX's output and notes.
     cancel(): asked every 0.1 s, true stops the work.
     Raises InvalidInput, SolverFailed with CalculiX's own words, Cancelled; the analysis is then as it was.
     """
@@ -128,6 +129,8 @@ def prepared(analysis, solver, folder):
     if any(kind in ("bearing", "spring") for kind, _ in _special(analysis)):
         trouble = [line for line in trouble if "Neither constraint fixed nor" not in line]  # these hold it too
     if trouble:
+        if os.path.basename(tools.working_dir.rstrip("/")).startswith("fcfem_"):  # a new one that FreeCAD makes for every run
+            os.rmdir(tools.working_dir)
         raise InvalidInput(" ".join(" ".join(trouble).split()))
     return tools
 

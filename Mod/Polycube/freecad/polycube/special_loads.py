@@ -15,6 +15,7 @@ import FreeCAD
 
 from . import compat, shapes
 from .errors import InvalidInput
+from .load_sets import references
 
 #: below this share of its row a coefficient of an equation is rounding
 _ROUNDING = 1e-9
@@ -53,12 +54,11 @@ def write(kind, mesh, constraint, cards):
 def _faces(mesh, constraint):
     """Mesh faces of all CAD faces that the constraint refers to."""
     found = []
-    for obj, names in constraint.References:
-        for name in names:
-            elements = mesh.elements(obj.Shape.getElement(name), "Face") if name.startswith("Face") else ()
-            if not elements:
-                raise InvalidInput("{}: the mesh has no faces on {} of {}".format(constraint.Label, name or "all", obj.Label))
-            found += elements
+    for obj, name in references(constraint):
+        elements = mesh.elements(obj.Shape.getElement(name), "Face") if name.startswith("Face") else ()
+        if not elements:
+            raise InvalidInput("{}: the mesh has no faces on {} of {}".format(constraint.Label, name or "all", obj.Label))
+        found += elements
     if not found:
         raise InvalidInput("{}: it refers to nothing".format(constraint.Label))
     return found
@@ -205,7 +205,7 @@ def _grounded(cards, constraint, node, place, stiffness):
 
 
 def _body_heat(mesh, constraint, cards):
-    solids = [solid for obj, names in constraint.References for name in names for solid in _solids(obj, name)]
+    solids = [solid for obj, name in references(constraint) for solid in _solids(obj, name)]
     heated = {cell for solid in solids for cell in mesh.elements(solid, "Volume")} if solids else set(mesh.Volumes)
     if not heated:
         raise InvalidInput("{}: the mesh has no cells in what it refers to".format(constraint.Label))

@@ -33,9 +33,25 @@ struct Candidate {
   double gain = 0;
 };
 
+// The hexes round the mesh edge x-y of a boundary quad, and the quad on their other side.
+struct Wedge {
+  std::vector<int> hexes;
+  int far_quad = -1;
+};
+
+Wedge wedge_at(const TrialMesh& whole, int quad, int x, int y) {
+  Wedge wedge;
+  int side = whole.topology.quad_side[quad];
+  while (side >= 0) {
+    wedge.hexes.push_back(side / 6);
+    side = whole.topology.mate[6 * (side / 6) + other_face(whole.padded.mesh.hexes[side / 6], side % 6, x, y)];
+  }
+  wedge.far_quad = -1 - side;
+  return wedge;
+}
+
 // The sheet round a stretch through the hexes under `band`, quads of the patch.
 Candidate make_candidate(const TrialMesh& whole, int patch, const Stretch& stretch, const std::vector<int>& band) {
-  const HexMesh& mesh = whole.padded.mesh;
   const Association& a = whole.padded.association;
   Candidate candidate;
   const std::set<int> in_band(band.begin(), band.end());
@@ -43,14 +59,8 @@ Candidate make_candidate(const TrialMesh& whole, int patch, const Stretch& stret
     candidate.inside.insert(whole.topology.quad_side[q] / 6);
     // Round an edge between two quads of the band the hexes between theirs come along.
     for (int k = 0; k < 4; ++k) {
-      const int x = a.quads[q][k], y = a.quads[q][(k + 1) % 4];
-      std::vector<int> between;
-      int side = whole.topology.quad_side[q];
-      while (side >= 0) {
-        between.push_back(side / 6);
-        side = whole.topology.mate[6 * (side / 6) + other_face(mesh.hexes[side / 6], side % 6, x, y)];
-      }
-      if (in_band.count(-1 - side) > 0) candidate.inside.insert(between.begin(), between.end());
+      const Wedge between = wedge_at(whole, q, a.quads[q][k], a.quads[q][(k + 1) % 4]);
+      if (in_band.count(between.far_quad) > 0) candidate.inside.insert(between.hexes.begin(), between.hexes.end());
     }
   }
   // Where a wedge at the stretch is inside as a whole, the sheet runs between it and the quad on the wedge's other side.
@@ -62,16 +72,33 @@ Candidate make_candidate(const TrialMesh& whole, int patch, const Stretch& stret
       const Quad& quad = a.quads[q];
       const auto at = std::find(quad.begin(), quad.end(), x) - quad.begin();
       if (quad[(at + 1) % 4] != y) continue;
-      int side = whole.topology.quad_side[q];
-      bool all_inside = true;
-      while (side >= 0) {
-        all_inside = all_inside && candidate.inside.count(side / 6) > 0;
-        side = whole.topology.mate[6 * (side / 6) + other_face(mesh.hexes[side / 6], side % 6, x, y)];
-      }
-      if (all_inside) candidate.surface.insert(-1 - side);
+      const Wedge wedge = wedge_at(whole, q, x, y);
+      if (std::all_of(wedge.hexes.begin(), wedge.hexes.end(), [&](int h) { return candidate.inside.count(h) > 0; })) candidate.surface.insert(wedge.far_quad);
     }
   }
   return candidate;
+}
+
+// Takes in the hexes round the other CAD edge of a corner with one quad at an end of the stretch: the sheet comes out on the far side of that edge, and
+// the corner keeps its one quad, which a cusp needs. False if nothing was added.
+bool take_corners(const TrialMesh& whole, int patch, const Stretch& stretch, Candidate& candidate) {
+  const std::size_t count = stretch.nodes.size(), before = candidate.inside.size();
+  if (stretch.closed || count < 2) return false;
+  const Association& a = whole.padded.association;
+  for (const auto& [end, beside] : {std::array{stretch.nodes[0], stretch.nodes[1]}, std::array{stretch.nodes[count - 1], stretch.nodes[count - 2]}}) {
+    if (a.point_cad[end].dim > 0) continue;
+    for (int q : whole.node_quads[end]) {
+      const Quad& quad = a.quads[q];
+      if (a.quad_patch[q] != patch || std::find(quad.begin(), quad.end(), beside) == quad.end()) continue;
+      const auto at = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), end) - quad.begin());
+      const int other = quad[(at + 1) % 4] == beside ? quad[(at + 3) % 4] : quad[(at + 1) % 4];
+      const auto& segments = whole.node_segments[end];
+      if (std::none_of(segments.begin(), segments.end(), [&](int s) { return a.segments[s][0] == other || a.segments[s][1] == other; })) continue;
+      const Wedge wedge = wedge_at(whole, q, end, other);
+      candidate.inside.insert(wedge.hexes.begin(), wedge.hexes.end());
+    }
+  }
+  return candidate.inside.size() > before;
 }
 
 SheetCut as_cut(const TrialMesh& whole, const Candidate& candidate) {
@@ -234,6 +261,8 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
   const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap = 0) {
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
+    Candidate wider = candidate;
+    if (take_corners(whole, patch, stretch, wider) && rate(whole, patch, wider) && wider.gain > best.gain + handicap) best = std::move(wider);
     if (rate(whole, patch, candidate) && candidate.gain > best.gain + handicap) best = std::move(candidate);
   };
   for (const Stretch& stretch : border.stretches(bad)) {

@@ -23,6 +23,12 @@ TEST(Breakthroughs, ASlotThroughTheEdgeOfAHoleIsMeshedCompletely) { expect_compl
 
 TEST(Breakthroughs, AHolePastTheEdgeOfAChamferIsMeshedCompletely) { expect_complete(shapes::hole_past_chamfer(0.256, 0), 0.15); }
 
+TEST(Breakthroughs, AChamferThatTouchesTheFlatsOfABoltIsMeshedCompletely) {
+  const std::string bolt = shapes::hexagon_bolt(18, 20);
+  ASSERT_EQ(CadModel::from_brep(bolt).face_count(), 16);  // six flats, six pieces of the cone, both sides of the head, the shank and its end
+  expect_complete(bolt, 0.05);
+}
+
 TEST(Breakthroughs, ACornerTwoCellsFromAnEdgeAsksForNoFinerGrid) {
   const MeshResult result = mesh(CadModel::from_brep(shapes::hole_past_chamfer(0.35, 1)), MeshOptions(), Monitor());
   EXPECT_TRUE(result.association.lost_edges.empty());

@@ -1,5 +1,6 @@
 #include "support/shapes.h"
 
+#include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
@@ -330,6 +331,21 @@ std::string hole_past_chamfer(double past, double wider) {
   const double leg = 5.544, tip = leg + past;
   return machined_box(20, {{1, {{20 - leg, -.01}, {20.01, leg + .01}, {20.01, -.01}}, -1, 21},
                            {2, {{tip, 6.746}, {tip - 3.1, 7.87}, {tip - 1.1, 10.346 + wider}}, -1, 21}});
+}
+
+std::string hexagon_bolt(double width, double shank) {
+  BRepBuilderAPI_MakePolygon hexagon;
+  for (int k = 0; k < 6; ++k) {
+    const double angle = (30 + 60 * k) * std::numbers::pi / 180, radius = width / std::sqrt(3.0);
+    hexagon.Add(gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), 0));
+  }
+  hexagon.Close();
+  const double height = 0.4 * width, slope = std::tan(std::numbers::pi / 6);
+  const TopoDS_Shape prism = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(hexagon.Wire()).Face(), gp_Vec(0, 0, height)).Shape();
+  const TopoDS_Shape cone = BRepPrimAPI_MakeCone(width / 2 + height / slope, width / 2, height).Shape();
+  TopoDS_Shape result = BRepAlgoAPI_Common(prism, cone).Shape();
+  if (shank > 0) result = BRepAlgoAPI_Fuse(result, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {0, 0, -1}), width / 3, shank).Shape()).Shape();
+  return text(solid(result));
 }
 
 std::string moved(const std::string& brep, double degrees, double x, double y, double z) {

@@ -45,6 +45,7 @@ struct Prism {
 std::string machined_box(double size, const std::vector<Prism>& cuts);  ///< cube with a corner at the origin, less the cuts
 std::string hole_through_slot();  ///< cube of 20, a slot along Y, a hexagonal hole along Z that breaks through its wall: two tips of 25 degrees on the slot's floor and ceiling
 std::string slots_through_hole(); ///< cube of 20, a triangular hole along X, a slot along Y through its edge
+std::string hexagon_bolt(double width, double shank);  ///< width across flats, which the chamfer's cone touches; head alone where the shank has no length
 std::string hole_past_chamfer(double past, double wider);  ///< cube of 20, a chamfer, a triangular hole along Z (wider at its far end) whose edge is past the chamfer's
 
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).

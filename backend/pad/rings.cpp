@@ -79,23 +79,23 @@ Candidate make_candidate(const TrialMesh& whole, int patch, const Stretch& stret
   return candidate;
 }
 
-// Takes in the hexes round the other CAD edge of a corner with one quad at an end of the stretch: the sheet comes out on the far side of that edge, and
-// the corner keeps its one quad, which a cusp needs. False if nothing was added.
-bool take_corners(const TrialMesh& whole, int patch, const Stretch& stretch, Candidate& candidate) {
+// Takes in the hexes round the other CAD edge of a cusp that the stretch ends at: the sheet comes out on the far side of that edge, and the cusp keeps its
+// one quad. False if nothing was added.
+bool take_cusps(const TrialMesh& whole, const std::vector<Sector>& sectors, int patch, const Stretch& stretch, Candidate& candidate) {
   const std::size_t count = stretch.nodes.size(), before = candidate.inside.size();
   if (stretch.closed || count < 2) return false;
-  const Association& a = whole.padded.association;
   for (const auto& [end, beside] : {std::array{stretch.nodes[0], stretch.nodes[1]}, std::array{stretch.nodes[count - 1], stretch.nodes[count - 2]}}) {
-    if (a.point_cad[end].dim > 0) continue;
-    for (int q : whole.node_quads[end]) {
-      const Quad& quad = a.quads[q];
-      if (a.quad_patch[q] != patch || std::find(quad.begin(), quad.end(), beside) == quad.end()) continue;
-      const auto at = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), end) - quad.begin());
-      const int other = quad[(at + 1) % 4] == beside ? quad[(at + 3) % 4] : quad[(at + 1) % 4];
-      const auto& segments = whole.node_segments[end];
-      if (std::none_of(segments.begin(), segments.end(), [&](int s) { return a.segments[s][0] == other || a.segments[s][1] == other; })) continue;
-      const Wedge wedge = wedge_at(whole, q, end, other);
-      candidate.inside.insert(wedge.hexes.begin(), wedge.hexes.end());
+    auto at = std::lower_bound(sectors.begin(), sectors.end(), end, [](const Sector& s, int node) { return s.node < node; });
+    for (; at != sectors.end() && at->node == end; ++at) {
+      if (at->patch != patch || at->quads != 1 || at->angle >= kOneCell || (at->first != beside && at->last != beside)) continue;
+      const int other = at->first == beside ? at->last : at->first;
+      for (int q : whole.node_quads[end]) {
+        const Quad& quad = whole.padded.association.quads[q];
+        const auto has = [&](int node) { return std::find(quad.begin(), quad.end(), node) != quad.end(); };
+        if (whole.padded.association.quad_patch[q] != patch || !has(beside) || !has(other)) continue;
+        const Wedge wedge = wedge_at(whole, q, end, other);
+        candidate.inside.insert(wedge.hexes.begin(), wedge.hexes.end());
+      }
     }
   }
   return candidate.inside.size() > before;
@@ -262,7 +262,7 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
     Candidate wider = candidate;
-    if (take_corners(whole, patch, stretch, wider) && rate(whole, patch, wider) && wider.gain > best.gain + handicap) best = std::move(wider);
+    if (take_cusps(whole, sectors, patch, stretch, wider) && rate(whole, patch, wider) && wider.gain > best.gain + handicap) best = std::move(wider);
     if (rate(whole, patch, candidate) && candidate.gain > best.gain + handicap) best = std::move(candidate);
   };
   for (const Stretch& stretch : border.stretches(bad)) {

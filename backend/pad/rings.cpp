@@ -250,7 +250,7 @@ bool is_lost(const TrialMesh& whole, const Sector& sector) {
 }
 
 // The best sheet for a bad sector; no hexes if none gains.
-Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::vector<Sector>& sectors, int bad) {
+Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::vector<Sector>& sectors, int bad, RingWay way) {
   const int patch = sectors[bad].patch;
   std::vector<int> all;
   for (int q = 0; q < static_cast<int>(whole.padded.association.quads.size()); ++q) {
@@ -261,8 +261,10 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
   const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap = 0) {
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
-    Candidate wider = candidate;
-    if (take_cusps(whole, sectors, patch, stretch, wider) && rate(whole, patch, wider) && wider.gain > best.gain + handicap) best = std::move(wider);
+    if (way == RingWay::kThroughCusps) {
+      Candidate wider = candidate;
+      if (take_cusps(whole, sectors, patch, stretch, wider) && rate(whole, patch, wider) && wider.gain > best.gain + handicap) best = std::move(wider);
+    }
     if (rate(whole, patch, candidate) && candidate.gain > best.gain + handicap) best = std::move(candidate);
   };
   for (const Stretch& stretch : border.stretches(bad)) {
@@ -289,7 +291,7 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
 
 }  // namespace
 
-RingCount insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor& monitor) {
+RingCount insert_rings(const CadModel& model, PaddedMesh& padded, RingWay way, const Monitor& monitor) {
   std::set<std::array<int, 2>> given_up;  // node, patch
   RingCount count;
   for (bool again = true; again && count.sheets < kMaxSheets;) {
@@ -297,6 +299,8 @@ RingCount insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor&
     std::vector<char> on_edge(padded.mesh.points.size(), 0);
     for (std::size_t v = 0; v < on_edge.size(); ++v) on_edge[v] = padded.association.point_cad[v].dim <= 1;
     const auto sectors = find_sectors(model, padded.mesh, padded.association, on_edge);
+    count.flat = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.quads == 1 && s.angle >= kStraightAngle; });
+    count.cusps = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.angle < kOneCell; });
     std::vector<int> bad;
     for (int i = 0; i < static_cast<int>(sectors.size()); ++i) {
       if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kBadSector &&
@@ -309,7 +313,7 @@ RingCount insert_rings(const CadModel& model, PaddedMesh& padded, const Monitor&
     const Border border(sectors);
     for (int i : bad) {
       monitor.check();
-      const Candidate best = best_sheet(whole, border, sectors, i);
+      const Candidate best = best_sheet(whole, border, sectors, i, way);
       if (best.inside.empty()) {
         given_up.insert({sectors[i].node, sectors[i].patch});
         continue;

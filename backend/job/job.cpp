@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -51,19 +52,48 @@ std::string value_text(const Json& value) {
   return text;
 }
 
-/// Speaks on standard output, and asks whether the parent is still there.
+/// The caller's wish for the best mesh so far: a file in the job's folder, looked for every tenth of a second once the first stage has
+/// begun (OCCT's readers, before, would take the exception for a damaged file).
+class Wish {
+ public:
+  explicit Wish(const std::string& folder) : path_(folder + "/enough") {}
+
+  void begin() { begun_ = true; }
+  /// True once, for what was found out is handed out then without more ado.
+  bool granted() {
+    const std::lock_guard lock(mutex_);
+    const auto now = Monitor::Clock::now();
+    if (!begun_ || granted_ || now < next_) return false;
+    next_ = now + std::chrono::milliseconds(100);
+    granted_ = access(path_.c_str(), F_OK) == 0;
+    return granted_;
+  }
+
+ private:
+  const std::string path_;
+  std::mutex mutex_;
+  Monitor::Clock::time_point next_{};
+  std::atomic<bool> begun_{false};
+  bool granted_ = false;
+};
+
+/// Speaks on standard output, and asks whether the parent is still there and still wants a better mesh.
 class Voice {
  public:
-  explicit Voice(Monitor& monitor) {
+  Voice(Monitor& monitor, const std::string& folder) : wish_(folder) {
     monitor.on_progress = [this](const std::string& stage, double fraction) { progress(stage, fraction); };
     monitor.on_log = [this](const std::string& line) { say({{"log", line}}); };
-    monitor.cancel_requested = [parent = getppid()] { return getppid() != parent; };
+    monitor.cancel_requested = [this, parent = getppid()] {
+      if (wish_.granted()) throw OutOfTime("stopped by the user");
+      return getppid() != parent;
+    };
   }
   Voice(const Voice&) = delete;
   Voice& operator=(const Voice&) = delete;
 
  private:
   void progress(const std::string& stage, double fraction) {
+    wish_.begin();
     {
       const std::lock_guard lock(mutex_);
       const auto now = Monitor::Clock::now();
@@ -79,6 +109,7 @@ class Voice {
     std::fwrite(line.data(), 1, line.size(), stdout);
     std::fflush(stdout);
   }
+  Wish wish_;
   std::mutex mutex_;
   Monitor::Clock::time_point next_{};
 };
@@ -132,7 +163,7 @@ void save_labels(const std::string& folder, const LabelledPart& part, int face_c
 void work(const std::string& folder, JobKind kind) {
   const MeshOptions options = options_from_json(read_text(folder + "/options.json"));
   Monitor monitor;
-  const Voice voice(monitor);
+  const Voice voice(monitor, folder);
   if (options.time_limit > 0)
     monitor.set_deadline(Monitor::Clock::now() +
                          std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));

@@ -42,7 +42,7 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, const Monit
   result.report.plan = found.plan.name;
   result.report.plans_tried = found.tried;
   result.report.out_of_time = found.out_of_time;
-  if (found.out_of_time) result.report.warnings.push_back("the time limit ended the search; this is the best mesh so far");
+  if (found.out_of_time) result.report.warnings.push_back("the search was ended early; this is the best mesh so far");
   return result;
 }
 

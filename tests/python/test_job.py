@@ -120,6 +120,15 @@ class Errors(JobTest):
         self.assertEqual(error["stage"], "tet")
         self.assertIsInstance(error["entities"], list)
 
+    def test_enough_without_a_mesh(self):
+        """With one it is handed out, as at a time limit: tests/unit/pipeline/search_test.cpp."""
+        for mesher in MESHERS:
+            folder = self.job(cylinder(), size=0.05)
+            with open(os.path.join(folder, "enough"), "w", encoding="ascii"):
+                pass
+            status, _ = self.serve(mesher, folder)
+            self.assertEqual((status, self.plain(folder, "error.json")), (3, {"kind": "Cancelled", "message": "stopped by the user"}))
+
     def test_out_of_time(self):
         self.fails(self.job(cylinder(), time_limit=0.01), 3, "Cancelled", "time")
 

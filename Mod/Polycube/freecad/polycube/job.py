@@ -7,6 +7,7 @@ The window drives a Job with QProcess, the API with run().
 import json
 import math
 import os
+import queue
 import re
 import shutil
 import signal
@@ -21,6 +22,8 @@ from .errors import Cancelled, InvalidInput, StageFailed
 # From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
 # (kGrace in backend/cli/supervise.cpp), within the 2 s after the limit that the contract gives.
 _GRACE = 1.5
+# Seconds between two calls of `idle`: a window that is asked so often does not look stuck.
+_IDLE = 0.03
 _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
 
 
@@ -57,6 +60,11 @@ class Job:
     def environment(self):
         return self._mesher.environment(self.folder)
 
+    def ask_for_the_best(self):
+        """Has the child end with the best mesh so far; cancelled where there is none yet, which its log tells."""
+        with open(os.path.join(self.folder, "enough"), "w", encoding="ascii"):
+            pass
+
     def out_of_time(self, seconds):
         """Whether a child that has run for so many seconds is to be killed: it has not ended by itself at the time limit."""
         limit = self._limit or 0  # one that is not positive the child refuses
@@ -90,8 +98,11 @@ class Job:
         raise StageFailed("the meshing process ended unexpectedly (status {}): {}".format(status, reason))
 
 
-def run(job, progress=None, log=None, cancel=None):
-    """Runs the job here and now. `progress(stage, fraction)`, `log(line)`; `cancel()` true kills the child: raises Cancelled."""
+def run(job, progress=None, log=None, cancel=None, idle=None):
+    """Runs the job here and now. `progress(stage, fraction)`, `log(line)`; `cancel()` true kills the child: raises Cancelled.
+
+    `idle()` is called again and again from this thread, for a window that is to go on.
+    """
     child = subprocess.Popen(
         job.command(),
         stdin=subprocess.DEVNULL,
@@ -101,9 +112,9 @@ def run(job, progress=None, log=None, cancel=None):
         text=True,
     )
     watcher = _Watcher(child, cancel, job)
-    stderr = _Drain(child.stderr)
+    stderr, stdout = _Drain(child.stderr), _Lines(child.stdout)
     try:
-        for line in child.stdout:
+        for line in stdout.each(idle):
             kind, value = job.parse(line.rstrip("\n"))
             if kind == "progress" and progress:
                 progress(*value)
@@ -146,6 +157,34 @@ def kill_tree(pid):
             os.kill(pid, getattr(signal, "SIGKILL", signal.SIGTERM))
     except ProcessLookupError:
         pass
+
+
+class _Lines(threading.Thread):
+    """Reads a pipe line by line."""
+
+    def __init__(self, pipe):
+        super().__init__(daemon=True)
+        self._pipe, self._queue = pipe, queue.Queue()
+        self.start()
+
+    def run(self):
+        for line in self._pipe:
+            self._queue.put(line)
+        self._queue.put(None)
+
+    def each(self, idle=None):
+        """The lines as they come; `idle()` is called between them and while there is none."""
+        while True:
+            try:
+                line = self._queue.get(timeout=_IDLE if idle else None)
+            except queue.Empty:
+                line = ""
+            if line is None:
+                return
+            if line:
+                yield line
+            if idle:
+                idle()
 
 
 class _Drain(threading.Thread):

@@ -16,7 +16,7 @@ import stuck
 from FreeCAD import Rotation, Vector
 
 from freecad import polycube
-from freecad.polycube import api, fem_mesh, job, objects, option_table, shapes
+from freecad.polycube import api, job, measures, objects, option_table, prediction, shapes
 
 
 def moved(shape, placement=None, scale=1.0):
@@ -492,9 +492,28 @@ class FemMeshObject(DocumentTest):
     def test_quality_of_the_fem_mesh_is_that_of_the_arrays(self):
         part = self.feature(Part.makeCylinder(10, 30))
         obj = polycube.create_fem_mesh(part, size=5)
-        numbers, quality = fem_mesh.node_quality(obj.FemMesh)
-        self.assertEqual(set(numbers), set(obj.FemMesh.Nodes))
-        self.assertAlmostEqual(min(quality), obj.MinScaledJacobian, delta=1e-6)
+        cells = measures.Cells(obj.FemMesh)
+        self.assertEqual(set(cells.node_numbers), set(obj.FemMesh.Nodes))
+        self.assertAlmostEqual(cells.node_goodness(measures.MEASURES[0]).min(), obj.MinScaledJacobian, delta=1e-6)
+        result = polycube.mesh(part, size=5)
+        for measure in measures.MEASURES:
+            with self.subTest(measure=measure.name):
+                values = cells.values(measure)
+                numpy.testing.assert_allclose(values, getattr(result, measure.name), atol=1e-6)
+                (worst,) = cells.worst(measure, 1)
+                self.assertEqual(measure.goodness(values[worst]), measure.goodness(values).min())
+                self.assertEqual(sum(measure.histogram(values)), len(values))
+        self.assertEqual(measures.MEASURES[0].histogram(cells.values(measures.MEASURES[0])), result.report["quality"]["histogram"])
+
+    def test_measures_of_a_cube_and_of_what_is_none(self):
+        cube = numpy.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]], float)
+        worst = {"scaled_jacobian": -1, "edge_ratio": math.inf, "skew": 1, "warpage": 1}
+        for measure in measures.MEASURES:
+            self.assertEqual(measure.goodness(measure.of(cube)[0]), 1, measure.name)
+            self.assertEqual(measure.bars(measure.of(cube)), [measures.BARS - 1])
+            self.assertEqual(measure.of(0 * cube)[0], worst[measure.name], measure.name)
+            for good in (0.1, 0.5, 1):
+                self.assertAlmostEqual(measure.goodness(measure.value(good)), good)
 
     def test_mid_nodes_between_their_corners(self):
         obj = polycube.create_fem_mesh(self.box(), size=5)

@@ -19,13 +19,13 @@ class HiddenPanel(GuiTest):
 
     def test_apply_and_axes_of_faces(self):
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 10.0)
+        panel.field("size").value = 10.0
         self.press("Apply")
         self.assertTrue(wait_until(lambda: not panel.process))
         self.assertIsNotNone(panel.obj, panel.form.log.toPlainText())
         self.assertEqual(panel.obj.FemMesh.HexaCount, panel.obj.Hexahedra)
-        panel.form.preview.setChecked(True)
-        self.assertTrue(wait_until(lambda: panel.shown_labels))
+        panel.axes.preview.setChecked(True)
+        self.assertTrue(wait_until(lambda: panel.axes.shown))
         picture("panel-without-the-module")
         self.press("Ok")
 

@@ -42,19 +42,19 @@ class Openings(GuiTest):
 
     def check(self, panel):
         """All that the panel shows is there, is of its own kind and works."""
-        form = panel.form
+        form, axes, result = panel.form, panel.axes, panel.result
         self.assertTrue(FreeCADGui.Control.activeDialog())
-        kinds = {
-            **{"parameters": QtGui.QGroupBox, "part": QtGui.QLabel, "hexes": QtGui.QSpinBox, "order": QtGui.QComboBox, "preview": QtGui.QCheckBox},
-            **{"given_labels": QtGui.QListWidget, "automatic": QtGui.QPushButton, "progress": QtGui.QProgressBar, "log": QtGui.QPlainTextEdit},
-            **{"summary": QtGui.QLabel, "colours": QtGui.QCheckBox, "worst": QtGui.QTableWidget, "time": QtGui.QLabel},
-        }
-        for name, kind in kinds.items():
-            self.assertIsInstance(getattr(form, name), kind, name)
+        for widget, kind in (
+            (form.parameters, QtGui.QWidget), (form.part, QtGui.QLabel), (form.progress, QtGui.QProgressBar), (form.log, QtGui.QPlainTextEdit),
+            (form.time, QtGui.QLabel), (axes.preview, QtGui.QCheckBox), (axes.given, QtGui.QListWidget), (axes.automatic, QtGui.QPushButton),
+            (result.summary, QtGui.QLabel), (result.colours, QtGui.QCheckBox), (result.worst, QtGui.QTableWidget),
+            (panel.field("hexes").widget, QtGui.QSpinBox), (panel.field("order").widget, QtGui.QComboBox), (panel.field("sizes").widget, QtGui.QLineEdit),
+        ):
+            self.assertIsInstance(widget, kind)
         self.assertEqual(form.part.text(), self.box.Label)
-        self.assertEqual(form.element_size.property("rawValue"), 20 if panel.obj else 0)
-        self.assertEqual("cells" in form.summary.text(), panel.obj is not None)
-        self.assertEqual(form.worst.rowCount() > 0, panel.obj is not None)
+        self.assertEqual(panel.field("size").value, 20 if panel.obj else 0)
+        self.assertEqual("cells" in result.summary.text(), panel.obj is not None)
+        self.assertEqual(result.worst.rowCount() > 0, panel.obj is not None)
         form.log.clear()
         panel.log("opened")
         self.assertIn("opened", form.log.toPlainText())
@@ -70,8 +70,8 @@ class Openings(GuiTest):
                 panel = way_in()
                 self.check(panel)
                 if number % 5 == 0:
-                    panel.form.worst.selectRow(0)
-                    panel.form.colours.setChecked(panel.obj is not None)
+                    panel.result.worst.selectRow(0)
+                    panel.result.colours.setChecked(panel.obj is not None)
                 way_out()
                 self.assertFalse(FreeCADGui.Control.activeDialog())
                 # Some panels live on a while, as those do that Python has not collected yet.
@@ -123,7 +123,7 @@ class ClosedWithoutAWord(GuiTest):
             self.assertFalse(FreeCADGui.Control.activeDialog())
             self.assertIsNone(panel.form)
             self.assertIsNone(panel.process)
-            self.assertIsNone(panel.overlay)
+            self.assertIsNone(panel.axes.overlay)
             self.assertFalse(os.path.exists("/proc/{}".format(pid)))
             self.assertFalse(os.path.exists(folder))
             self.assertFalse(task_panel.MeshPanel.is_meshing(panel.obj))
@@ -138,14 +138,14 @@ class ClosedWithoutAWord(GuiTest):
         """What marks the mesh and what listens in the 3D view goes with the panel, without an error, after an Apply too."""
 
         def work(close, edit, panel):
-            panel.form.element_size.setProperty("rawValue", 20.0)
+            panel.field("size").value = 20.0
             self.press("Apply")
             self.assertTrue(wait_until(lambda: not panel.process))
-            panel.form.preview.setChecked(True)
+            panel.axes.preview.setChecked(True)
             self.assertTrue(wait_until(lambda: not panel.process))
-            panel.form.worst.selectRow(0)
-            panel.form.colours.setChecked(True)
-            view, clicks = panel.obj.ViewObject, panel.clicks
+            panel.result.worst.selectRow(0)
+            panel.result.colours.setChecked(True)
+            view, clicks = panel.obj.ViewObject, panel.axes.clicks
             self.assertTrue(view.HighlightedNodes)
             with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
                 with mock.patch.object(clicks, "remove", wraps=clicks.remove) as removed:
@@ -154,7 +154,7 @@ class ClosedWithoutAWord(GuiTest):
             self.assertEqual(error.call_args_list, [])
             removed.assert_called_once_with()
             self.assertIsNone(panel.form)
-            self.assertIsNone(panel.clicks)
+            self.assertIsNone(panel.axes.clicks)
             if self.is_open():
                 self.assertEqual(list(view.HighlightedNodes), [])
                 FreeCADGui.activeDocument().resetEdit()
@@ -164,20 +164,20 @@ class ClosedWithoutAWord(GuiTest):
 
     def test_while_it_meshes(self):
         def begin(panel):
-            panel.form.element_size.setProperty("rawValue", 0.4)
+            panel.field("size").value = 0.4
             self.press("Apply")
             process_events(0.3)
 
         self.check(begin)
 
     def test_while_it_labels(self):
-        self.check(lambda panel: panel.form.preview.setChecked(True))
+        self.check(lambda panel: panel.axes.preview.setChecked(True))
 
     def test_with_a_preview(self):
         def begin(panel):
-            panel.form.preview.setChecked(True)
+            panel.axes.preview.setChecked(True)
             self.assertTrue(wait_until(lambda: not panel.process))
-            panel._update_labels()
+            panel.axes.update()
 
         self.check(begin)
 

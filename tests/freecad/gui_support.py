@@ -26,6 +26,17 @@ def wait_until(condition, seconds=240):
     return condition()
 
 
+def mouse(widget, point, double=False):
+    """A click of the left button at a point of the widget, or two; as QTest does it, which FreeCAD's PySide does not have."""
+    at, there = QtCore.QPointF(point), QtCore.QPointF(widget.mapToGlobal(point))
+    kinds = [QtCore.QEvent.MouseButtonPress, QtCore.QEvent.MouseButtonRelease]
+    if double:
+        kinds += [QtCore.QEvent.MouseButtonDblClick, QtCore.QEvent.MouseButtonRelease]
+    for kind in kinds:
+        held = QtCore.Qt.NoButton if kind == QtCore.QEvent.MouseButtonRelease else QtCore.Qt.LeftButton
+        QtGui.QApplication.sendEvent(widget, QtGui.QMouseEvent(kind, at, there, QtCore.Qt.LeftButton, held, QtCore.Qt.NoModifier))
+
+
 def picture(name):
     process_events(0.5)
     QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name + ".png"))

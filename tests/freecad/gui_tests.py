@@ -15,7 +15,7 @@ from pivy import coin
 from PySide import QtCore, QtGui
 
 from freecad import polycube
-from freecad.polycube import commands, fem_mesh, objects, quality_view, task_panel
+from freecad.polycube import commands, measures, objects, quality_view, task_panel
 
 
 class Workbench(GuiTest):
@@ -54,7 +54,7 @@ class Panel(GuiTest):
         FemGui.setActiveAnalysis(analysis)
         self.document.clearUndos()
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 5.0)
+        panel.field("size").value = 5.0
         picture("panel-before")
         self.press("Apply")
         self.assertIsNotNone(panel.process)
@@ -65,10 +65,10 @@ class Panel(GuiTest):
         self.assertEqual(panel.obj.FemMesh.HexaCount, panel.obj.Hexahedra)
         self.assertIn(panel.obj, analysis.Group)
         self.assertEqual(panel.obj.CharacteristicLengthMax.Value, 5)
-        self.assertIn("cells", panel.form.summary.text())
-        self.assertGreater(sum(panel.histogram.counts), 0)
+        self.assertIn("cells", panel.result.summary.text())
+        self.assertGreater(sum(panel.result.histogram.counts), 0)
         FreeCADGui.SendMsgToActiveView("ViewFit")
-        panel.form.worst.selectRow(0)
+        panel.result.worst.selectRow(0)
         picture("panel-after")
         self.press("Ok")
         process_events()
@@ -82,22 +82,22 @@ class Panel(GuiTest):
         cylinder.Shape = Part.makeCylinder(20, 30)
         self.box.ViewObject.hide()
         panel = self.open_panel(cylinder)
-        panel.form.element_size.setProperty("rawValue", 5.0)
+        panel.field("size").value = 5.0
         self.press("Apply")
         self.assertTrue(wait_until(lambda: not panel.process))
         self.assertIsNotNone(panel.obj, panel.form.log.toPlainText())
-        self.assertGreater(sum(count > 0 for count in panel.histogram.counts), 1)
-        panel.form.colours.setChecked(True)
+        self.assertGreater(sum(count > 0 for count in panel.result.histogram.counts), 1)
+        panel.result.colours.setChecked(True)
         FreeCADGui.getMainWindow().findChild(QtGui.QDockWidget, "Report view").hide()
         area = next(widget for widget in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if widget.isAncestorOf(panel.form))
         area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
-        panel.form.worst.selectRow(0)
+        panel.result.worst.selectRow(0)
         picture("panel-colours")
         self.press("Ok")
 
     def test_undo_while_the_panel_is_open(self):
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 20.0)
+        panel.field("size").value = 20.0
         self.press("Apply")
         self.assertTrue(wait_until(lambda: not panel.process))
         self.document.undo()
@@ -112,7 +112,7 @@ class Panel(GuiTest):
 
     def test_cancel_kills_the_mesher(self):
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 0.4)
+        panel.field("size").value = 0.4
         self.press("Apply")
         process_events(0.3)
         pid = int(panel.process.processId())
@@ -141,7 +141,7 @@ class Panel(GuiTest):
 
     def test_a_part_that_changes_while_it_is_meshed(self):
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 20.0)
+        panel.field("size").value = 20.0
         self.press("Apply")
         self.box.Length = 80
         self.document.recompute()
@@ -155,7 +155,7 @@ class Panel(GuiTest):
     def test_an_analysis_that_goes_while_the_part_is_meshed(self):
         FemGui.setActiveAnalysis(ObjectsFem.makeAnalysis(self.document, "Analysis"))
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 20.0)
+        panel.field("size").value = 20.0
         self.press("Apply")
         self.document.removeObject(panel.analysis.Name)
         self.assertTrue(wait_until(lambda: not panel.process))
@@ -164,7 +164,7 @@ class Panel(GuiTest):
 
     def test_a_bad_size_is_said_in_the_log(self):
         panel = self.open_panel(self.box)
-        panel.form.element_size.setProperty("rawValue", 1e5)
+        panel.field("size").value = 1e5
         self.press("Apply")
         self.assertTrue(wait_until(lambda: not panel.process, 30))
         self.assertIn("size", panel.form.log.toPlainText())
@@ -239,14 +239,15 @@ class QualityInColours(GuiTest):
         for shear in (0, 0.4, 1.5, 4):
             with self.subTest(shear=shear):
                 obj = self.grid(6, shear)
-                quality_view.paint(obj.ViewObject, obj.FemMesh)
-                bars = {quality_view.bar_of(quality) for quality in fem_mesh.node_quality(obj.FemMesh)[1]}
+                cells = measures.Cells(obj.FemMesh)
+                quality_view.paint(obj.ViewObject, cells, measures.MEASURES[0])
+                bars = set(measures.bar_of(cells.node_goodness(measures.MEASURES[0])).tolist())
                 self.assertEqual(len(bars) > 1, shear > 0)
                 self.assertEqual(self.painted(obj.ViewObject), {tuple(round(channel, 3) for channel in quality_view.colour(bar)) for bar in bars})
 
     def test_bars_differ_and_the_best_is_not_dark(self):
-        colours = [QtGui.QColor.fromRgbF(*quality_view.colour(bar)) for bar in range(quality_view.BARS)]
-        self.assertEqual(len({colour.rgb() for colour in colours}), quality_view.BARS)
+        colours = [QtGui.QColor.fromRgbF(*quality_view.colour(bar)) for bar in range(measures.BARS)]
+        self.assertEqual(len({colour.rgb() for colour in colours}), measures.BARS)
         self.assertEqual(colours[0].getRgb(), (255, 0, 0, 255))
         self.assertGreater(colours[-1].blueF(), 0.9)
         self.assertGreater(min(QtGui.qGray(colour.rgb()) for colour in colours), 75)
@@ -255,7 +256,7 @@ class QualityInColours(GuiTest):
         """`NodeColor` takes a time that grows with the square of the nodes."""
         obj = self.grid(3, 1)
         view = mock.Mock(spec_set=["setNodeColorByScalars"])
-        quality_view.paint(view, obj.FemMesh)
+        quality_view.paint(view, measures.Cells(obj.FemMesh), measures.MEASURES[0])
         view.setNodeColorByScalars.assert_called_once()
         self.assertLessEqual(set(obj.FemMesh.Nodes), set(view.setNodeColorByScalars.call_args.args[0]))
 
@@ -287,7 +288,7 @@ class AxesOfFaces(GuiTest):
         self.settle()
 
     def shown(self, face):
-        labels = self.panel.shown_labels
+        labels = self.panel.axes.shown
         return {int(label) for label in labels.label[labels.triangle_face == face]}
 
     def children_of_scene(self):
@@ -295,55 +296,55 @@ class AxesOfFaces(GuiTest):
 
     def test_clicks_go_through_the_axes(self):
         before = self.children_of_scene()
-        self.panel.form.preview.setChecked(True)
+        self.panel.axes.preview.setChecked(True)
         self.settle()
         self.assertEqual(self.children_of_scene(), before + 1)
-        self.assertTrue(self.panel.shown_labels.valid)
+        self.assertTrue(self.panel.axes.shown.valid)
         (automatic,) = self.shown(self.chamfer)
         self.assertIn(automatic, (0, 4))
         picture("labels-automatic")
         other = 4 - automatic
         self.click(self.chamfer)
-        self.assertEqual(self.panel.labels, {"Face{}".format(self.chamfer): {0: "+X", 4: "+Z"}[other]})
+        self.assertEqual(self.panel.axes.labels, {"Face{}".format(self.chamfer): {0: "+X", 4: "+Z"}[other]})
         self.assertEqual(self.shown(self.chamfer), {other})
         self.assertEqual(FreeCADGui.Selection.getSelectionEx(), [], "a click must not leave a selection")
         picture("labels-by-hand")
         self.click(self.chamfer)
         self.assertEqual(self.shown(self.chamfer), {automatic})
-        self.assertEqual(len(self.panel.labels), 1)
+        self.assertEqual(len(self.panel.axes.labels), 1)
         self.click(self.chamfer)
-        self.assertEqual(self.panel.labels, {})
+        self.assertEqual(self.panel.axes.labels, {})
         self.click(self.bore)
-        self.assertEqual(self.panel.labels, {})
+        self.assertEqual(self.panel.axes.labels, {})
         self.assertIn("Face{} turns too far".format(self.bore), self.panel.form.log.toPlainText())
-        self.panel.form.preview.setChecked(False)
+        self.panel.axes.preview.setChecked(False)
         self.assertEqual(self.children_of_scene(), before)
         self.click(self.chamfer)
-        self.assertEqual(self.panel.labels, {}, "without the preview clicks select as ever")
+        self.assertEqual(self.panel.axes.labels, {}, "without the preview clicks select as ever")
         self.press("Cancel")
 
     def test_axes_reach_mesh_and_properties(self):
-        self.panel.form.preview.setChecked(True)
+        self.panel.axes.preview.setChecked(True)
         self.settle()
         self.click(self.chamfer)
-        wanted = dict(self.panel.labels)
-        self.assertEqual([self.panel.form.given_labels.item(0).text()], ["{}={}".format(*item) for item in wanted.items()])
-        self.panel.form.element_size.setProperty("rawValue", 6.0)
+        wanted = dict(self.panel.axes.labels)
+        self.assertEqual([self.panel.axes.given.item(0).text()], ["{}={}".format(*item) for item in wanted.items()])
+        self.panel.field("size").value = 6.0
         self.press("Apply")
         self.settle()
         self.assertIsNotNone(self.panel.obj, self.panel.form.log.toPlainText())
-        self.assertFalse(self.panel.form.preview.isChecked(), "the mesh takes the place of the preview")
-        self.assertIsNone(self.panel.overlay)
+        self.assertFalse(self.panel.axes.preview.isChecked(), "the mesh takes the place of the preview")
+        self.assertIsNone(self.panel.axes.overlay)
         self.assertEqual(list(self.panel.obj.Labels), ["{}={}".format(*item) for item in wanted.items()])
         self.assertEqual(self.panel.obj.MeshState, objects.CURRENT)
-        self.panel.form.automatic.click()
-        self.assertEqual(self.panel.form.given_labels.count(), 0)
+        self.panel.axes.automatic.click()
+        self.assertEqual(self.panel.axes.given.count(), 0)
         self.press("Ok")
         self.assertEqual(list(self.panel.obj.Labels), [])
         self.assertEqual(self.panel.obj.MeshState, objects.OUTDATED)
 
     def test_a_real_click_in_the_view(self):
-        self.panel.form.preview.setChecked(True)
+        self.panel.axes.preview.setChecked(True)
         self.settle()
         view = FreeCADGui.activeDocument().activeView()
         face = self.chamfered.Shape.Faces[self.chamfer - 1]
@@ -353,13 +354,13 @@ class AxesOfFaces(GuiTest):
 
     def test_a_panel_that_is_gone_takes_no_clicks(self):
         before = self.children_of_scene()
-        self.panel.form.preview.setChecked(True)
+        self.panel.axes.preview.setChecked(True)
         self.settle()
         FreeCADGui.Control.closeDialog()
         process_events()
         self.assertEqual(self.children_of_scene(), before)
         self.click(self.chamfer)
-        self.assertEqual(self.panel.labels, {})
+        self.assertEqual(self.panel.axes.labels, {})
 
 
 class InAContainer(GuiTest):
@@ -376,13 +377,13 @@ class InAContainer(GuiTest):
     def mesh(self, part):
         panel = self.open_panel(part)
         self.assertIn("0 is automatic", panel.form.size_hint.text())
-        panel.form.element_size.setProperty("rawValue", 10.0)
-        panel.form.preview.setChecked(True)
+        panel.field("size").value = 10.0
+        panel.axes.preview.setChecked(True)
         self.assertTrue(wait_until(lambda: not panel.process))
-        self.assertTrue(panel.shown_labels.valid)
+        self.assertTrue(panel.axes.shown.valid)
         picture("container-labels-" + part.Name)
         asked = []
-        panel.face_clicked = panel.clicks._clicked = asked.append
+        panel.axes.face_clicked = panel.axes.clicks._clicked = asked.append
         FreeCADGui.Selection.addSelection(self.document.Name, self.container.Name, self.box.Name + ".Face3")
         process_events(0.3)
         self.assertEqual(asked, [3], "a click as the 3D view tells of it")

@@ -1,9 +1,41 @@
 """What scripts call. No window needed."""
 
+import functools
+import threading
 from contextlib import contextmanager
+
+import FreeCAD
 
 from . import shapes
 from .errors import InvalidInput
+
+
+#: What the calls that change documents return at once while the window records them: see echo().
+_done = None
+
+
+@contextmanager
+def echo(obj):
+    """Within it the calls that change documents do nothing and return `obj`.
+
+    The window has done what they do, watched and without waiting; FreeCAD's doCommand, by which it records them in macros, runs what it records.
+    """
+    global _done
+    _done = obj
+    try:
+        yield
+    finally:
+        _done = None
+
+
+def _recorded(call):
+    """A call that the window records."""
+
+    @functools.wraps(call)
+    def called(*arguments, **named):
+        return call(*arguments, **named) if _done is None else _done
+
+    return called
 
 
 def options():
@@ -36,10 +68,14 @@ def _run(what, shape, given, progress, log, cancel):
     from . import job
 
     shapes.check_solid(shape)
+    run = job.run
+    if FreeCAD.GuiUp and threading.current_thread() is threading.main_thread():
+        from .waiting import run
     with job.Job(shape, given, what) as work:
-        return job.run(work, progress, log, cancel)
+        return run(work, progress, log, cancel)
 
 
+@_recorded
 def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh", progress=None, log=None, cancel=None, **more):
     """Meshes the document object `part` and returns a new FEM mesh object in its document, in one undo step.
 
@@ -48,10 +84,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     from . import objects
 
     _check_object(part)
-    if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
-        raise InvalidInput("analysis is not an analysis object")
-    if analysis is not None and analysis.Document != part.Document:
-        raise InvalidInput("{} is in another document than {}".format(analysis.Label, part.Label))
+    _check_analysis(analysis, part)
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
     meshed = shapes.signature(shape)
@@ -64,18 +97,48 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     return obj
 
 
-def update_fem_mesh(obj, progress=None, log=None, cancel=None):
-    """Meshes again with the object's own shape and options, in one undo step. Raises like mesh(); the object is then unchanged."""
+@_recorded
+def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
+    """Meshes again with the object's own shape and options, in one undo step. Raises like mesh(); the object is then unchanged.
+
+    `more`: options that are to be others from now on; one that is given its default, as options() has it, goes back to that.
+    """
     from . import objects, option_table
 
     part = objects.part_of(obj)
     _check_object(part)
-    given = option_table.read(obj)
+    given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     shape = shapes.shape_of(part, beside=obj)
     meshed = shapes.signature(shape)
     result = _run("mesh", shape, with_constraints(given, part, objects.analysis_of(obj)), progress, log, cancel)
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
+    return obj
+
+
+@_recorded
+def set_options(obj, **more):
+    """Gives a mesh object other options, without meshing, in one undo step. An option that is given its default, as options() has it, goes back to that."""
+    from . import option_table
+
+    _check_mesh(obj)
+    given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
+    with transaction(obj.Document, "Mesh parameters"):
+        option_table.write(obj, given)
+    return obj
+
+
+@_recorded
+def set_analysis(obj, analysis):
+    """Has the mesh object be the mesh of this analysis, in place of any other, or of none where it is None; in one undo step. Returns the mesh object."""
+    from . import analyses
+
+    _check_mesh(obj)
+    _check_analysis(analysis, obj)
+    with transaction(obj.Document, "Mesh of the analysis"):
+        analyses.move(obj, analysis)
+        for other in analyses.other_meshes(analysis, obj) if analysis else []:
+            analysis.removeObject(other)
     return obj
 
 
@@ -108,22 +171,35 @@ def with_constraints(options, part, analysis):
 @contextmanager
 def transaction(document, name):
     """One undo step, taken back on an error; part of the caller's step where one is open already."""
-    import FreeCAD
-
     # A document reports a transaction only once it has changed something; the application knows of it at once.
-    own = not (document.HasPendingTransaction or FreeCAD.getActiveTransaction())
-    if own:
-        document.openTransaction(name)
-    try:
+    if document.HasPendingTransaction or FreeCAD.getActiveTransaction():
         yield
-    except BaseException:
-        if own:
+        return
+    with _active(document):
+        document.openTransaction(name)
+        try:
+            yield
+        except BaseException:
             document.abortTransaction()
             FreeCAD.closeActiveTransaction(True)
-        raise
-    if own:
+            raise
         document.commitTransaction()
         FreeCAD.closeActiveTransaction()
+
+
+@contextmanager
+def _active(document):
+    """Has the document be the active one: when another document changes FreeCAD makes an undo step in the active one too."""
+    before = FreeCAD.ActiveDocument
+    if before is None or before.Name == document.Name:
+        yield
+        return
+    FreeCAD.setActiveDocument(document.Name)
+    try:
+        yield
+    finally:
+        if before.Name in FreeCAD.listDocuments():
+            FreeCAD.setActiveDocument(before.Name)
 
 
 def _given(**values):
@@ -137,8 +213,20 @@ def _check_object(part):
         raise InvalidInput("a document object with a shape is needed")
 
 
-def _warn(obj, warnings):
-    import FreeCAD
+def _check_analysis(analysis, beside):
+    if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
+        raise InvalidInput("analysis is not an analysis object")
+    if analysis is not None and analysis.Document != beside.Document:
+        raise InvalidInput("{} is in another document than {}".format(analysis.Label, beside.Label))
 
+
+def _check_mesh(obj):
+    from . import objects
+
+    if not objects.is_polycube(obj):
+        raise InvalidInput("{} is no mesh of Polycube".format(getattr(obj, "Label", obj)))
+
+
+def _warn(obj, warnings):
     for line in warnings:
         FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, line))

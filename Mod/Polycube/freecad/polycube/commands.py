@@ -4,7 +4,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import resources, shapes
+from . import analyses, macro, objects, resources, shapes
 from .errors import Cancelled, InvalidInput, PolycubeError
 
 
@@ -32,7 +32,14 @@ class MeshFromShape:
         except InvalidInput as error:
             QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Hexahedral mesh", "{}: {}".format(part.Label, error))
             return
-        FreeCADGui.Control.showDialog(MeshPanel(part, analysis=_active_analysis(part.Document)))
+        macro.begin()
+        analysis = analyses.active(part.Document)
+        # A second mesh of the part would stand in the first one.
+        meshes = [mesh for mesh in objects.meshes_of(part) if objects.analysis_of(mesh) in (analysis, None)]
+        if meshes:
+            meshes[-1].ViewObject.Proxy.doubleClicked(meshes[-1].ViewObject)
+        else:
+            FreeCADGui.Control.showDialog(MeshPanel(part, analysis=analysis))
 
     @staticmethod
     def _selected():
@@ -56,12 +63,12 @@ class Solve:
         }
 
     def IsActive(self):
-        return bool(FreeCAD.ActiveDocument) and _active_analysis(FreeCAD.ActiveDocument) is not None and not FreeCADGui.Control.activeDialog()
+        return bool(FreeCAD.ActiveDocument) and analyses.active(FreeCAD.ActiveDocument) is not None and not FreeCADGui.Control.activeDialog()
 
     def Activated(self):
         from . import solver
 
-        analysis = _active_analysis(FreeCAD.ActiveDocument)
+        analysis = analyses.active(FreeCAD.ActiveDocument)
         title = "Solve with CalculiX"
         progress = QtGui.QProgressDialog(title, "Cancel", 0, 0, FreeCADGui.getMainWindow())
         progress.setWindowModality(QtCore.Qt.WindowModal)
@@ -83,13 +90,6 @@ class Solve:
             progress.close()
         if solution.notes:
             QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
-
-
-def _active_analysis(document):
-    import FemGui
-
-    analysis = FemGui.getActiveAnalysis()
-    return analysis if analysis and analysis.Document == document else None
 
 
 def register():

@@ -18,57 +18,46 @@ _SPECIAL = {
 }
 #: Constraints that load faces of the mesh.
 _FACE_LOADS = {"Fem::ConstraintForce": "force", "Fem::ConstraintPressure": "pressure"}
+#: Nodes or elements that are added between two breaths: a few hundredths of a second.
+_SLICE = 4000
 
-#: right-handed neighbours of the eight corners in SMESH's order, which winds the other way than VTK's
-_SMESH_NEIGHBOURS = [[3, 1, 4], [0, 2, 5], [1, 3, 6], [2, 0, 7], [5, 7, 0], [6, 4, 1], [7, 5, 2], [4, 6, 3]]
 
-
-def build(result):
+def build(result, breathe=None):
     """Fem.FemMesh with cells, boundary quads and edges in SMESH order, and groups Face3, Edge5, Vertex2, Solid1.
 
-    Node i of the arrays is node i + 1. Cell i is element i + 1; quads follow the cells, edges follow the quads.
+    Node i of the arrays is node i + 1. Cell i is element i + 1; quads follow the cells, edges follow the quads. `breathe(fraction)` is called again and
+    again meanwhile, for a window that is not to freeze: 200,000 cells of second order take ten seconds.
     """
     import Fem
 
     second = result.order == 2
     mesh = Fem.FemMesh()
-    for number, (x, y, z) in enumerate(result.nodes.tolist(), 1):
-        mesh.addNode(x, y, z, number)
-    number = 0
     order = engine.description()["smesh_hex20"]
     cells = result.hexes[:, order if second else order[:8]] + 1
-    for number, row in enumerate(cells.tolist(), number + 1):
-        mesh.addVolume(row, number)
-    for number, row in enumerate((result.quads + 1).tolist(), number + 1):
-        mesh.addFace(row, number)
-    for number, row in enumerate((result.segments + 1).tolist(), number + 1):
-        mesh.addEdge(row, number)
-    offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(result.quads), "nodes": 1}
+    quads, segments = result.quads + 1, result.segments + 1
+    work = len(result.nodes) + len(cells) + len(quads) + len(segments)
+    done = 0
+
+    def add(rows, add_one, first):
+        nonlocal done
+        for start in range(0, len(rows), _SLICE):
+            slice_of = rows[start : start + _SLICE].tolist()
+            for number, row in enumerate(slice_of, first + start):
+                add_one(row, number)
+            done += len(slice_of)
+            if breathe:
+                breathe(done / work)
+
+    add(result.nodes, lambda point, number: mesh.addNode(*point, number), 1)
+    add(cells, mesh.addVolume, 1)
+    add(quads, mesh.addFace, 1 + len(cells))
+    add(segments, mesh.addEdge, 1 + len(cells) + len(quads))
+    offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(quads), "nodes": 1}
     kinds = {"Face": ("Face", "quads"), "Edge": ("Edge", "segments"), "Vertex": ("Node", "nodes"), "Solid": ("Volume", "hexes")}
     for name, parts in result.groups.items():
         kind, what = kinds[name.rstrip("0123456789")]
         add_group(mesh, name, kind, (parts[what] + offsets[what]).tolist())
     return mesh
-
-
-def node_quality(mesh):
-    """(node numbers, per node the least scaled Jacobian of its cells) of a Fem.FemMesh of hexahedra."""
-    import numpy
-
-    points = mesh.Nodes
-    cells = numpy.array([mesh.getElementNodes(cell) for cell in mesh.Volumes])
-    # row i of the coordinates is node i; numbers that are not in use stay zero
-    coordinates = numpy.zeros((max(points) + 1, 3))
-    coordinates[list(points)] = [(point.x, point.y, point.z) for point in points.values()]
-    corners = coordinates[cells[:, :8]]
-    quality = numpy.ones(len(cells))
-    for corner, neighbours in enumerate(_SMESH_NEIGHBOURS):
-        edges = corners[:, neighbours] - corners[:, corner, None]
-        edges /= numpy.maximum(numpy.linalg.norm(edges, axis=2, keepdims=True), 1e-300)
-        quality = numpy.minimum(quality, numpy.linalg.det(edges))
-    worst = numpy.ones(len(coordinates))
-    numpy.minimum.at(worst, cells, quality[:, None])
-    return list(points), worst[list(points)].tolist()
 
 
 def add_group(mesh, name, kind, elements):

@@ -56,11 +56,22 @@ class _FemMenu:
         for entry in window.menuBar().actions():
             menu = entry.menu()
             if menu and menu.objectName() == "M&esh":
-                command = commands.MeshFromShape
-                action = QtGui.QAction(QtGui.QIcon(resources.icon(command.Name)), command().GetResources()["MenuText"], menu)
-                action.setObjectName(command.Name)
-                action.triggered.connect(lambda *_: FreeCADGui.runCommand(command.Name))
-                menu.addAction(action)
+                menu.addAction(_action(menu))
+
+
+def _action(menu):
+    """The command in a menu that FreeCAD does not fill; as FreeCAD's own entries it can be chosen where the command can do something."""
+    from PySide import QtGui
+
+    command = commands.MeshFromShape
+    told = command().GetResources()
+    action = QtGui.QAction(QtGui.QIcon(resources.icon(command.Name)), told["MenuText"], menu)
+    action.setObjectName(command.Name)
+    action.setToolTip(told["ToolTip"])
+    action.setStatusTip(told["ToolTip"])
+    action.triggered.connect(lambda *_: FreeCADGui.runCommand(command.Name))
+    menu.aboutToShow.connect(lambda: action.setEnabled(command().IsActive()))
+    return action
 
 
 commands.register()

@@ -5,9 +5,11 @@ from pivy import coin
 from PySide import QtCore
 
 from . import engine
+from .overlay import Overlay, depth, plain
 
-#: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the view's depth.
-_FACES_FORWARD, _LINES_FORWARD = 2e-5, 1e-4
+#: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the view's depth. FreeCAD draws a round face within
+#: 0.5 % of the part's size, so the triangles of the labels are up to twice that behind it.
+_FACES_FORWARD, _LINES_FORWARD = 1e-2, 1.01e-2
 
 
 def key():
@@ -16,32 +18,14 @@ def key():
     return "&nbsp;&nbsp;".join('<span style="color:rgb{}">&#9632;</span>&nbsp;{}'.format(tuple(colour), name) for name, colour in pairs)
 
 
-def _depth(forward):
-    depth = coin.SoDepthBuffer()
-    depth.range.setValue(coin.SbVec2f(0.0, 1.0 - forward))
-    return depth
-
-
-class LabelOverlay:
-    """Coloured triangles over the part in the active 3D view. Clicks go through to the part. `standing`: placement of the labels' coordinates."""
-
-    def __init__(self, document, standing):
-        self._root = FreeCADGui.getDocument(document.Name).activeView().getSceneGraph()
-        self._standing = coin.SoTransform()
-        self._standing.translation = tuple(standing.Base)
-        self._standing.rotation = standing.Rotation.Q
-        self._node = coin.SoSeparator()
-        self._root.addChild(self._node)
+class LabelOverlay(Overlay):
+    """Coloured triangles over the part in the active 3D view."""
 
     def show(self, labels):
         """Draws a LabelResult: charts in their labels' colours, borders of charts black, turning points red."""
-        self._node.removeAllChildren()
-        unpickable = coin.SoPickStyle()
-        unpickable.style = coin.SoPickStyle.UNPICKABLE
         points = coin.SoCoordinate3()
         points.point.setValues(0, len(labels.points), labels.points.tolist())
-        for child in (unpickable, self._standing, points, _depth(_FACES_FORWARD), *self._faces(labels), _depth(_LINES_FORWARD), *self._borders(labels)):
-            self._node.addChild(child)
+        self.draw(points, depth(_FACES_FORWARD), *self._faces(labels), depth(_LINES_FORWARD), *self._borders(labels))
 
     @staticmethod
     def _faces(labels):
@@ -51,6 +35,7 @@ class LabelOverlay:
         binding.value = coin.SoMaterialBinding.PER_FACE_INDEXED
         hints = coin.SoShapeHints()
         hints.vertexOrdering = coin.SoShapeHints.COUNTERCLOCKWISE
+        hints.shapeType = coin.SoShapeHints.SOLID  # what faces away is behind the part
         hints.creaseAngle = 0.4
         faces = coin.SoIndexedFaceSet()
         indices = [index for triangle in labels.triangles.tolist() for index in (*triangle, -1)]
@@ -60,12 +45,6 @@ class LabelOverlay:
 
     @staticmethod
     def _borders(labels):
-        light = coin.SoLightModel()
-        light.model = coin.SoLightModel.BASE_COLOR
-        ink = coin.SoBaseColor()
-        ink.rgb = (0.05, 0.05, 0.05)
-        binding = coin.SoMaterialBinding()
-        binding.value = coin.SoMaterialBinding.OVERALL
         style = coin.SoDrawStyle()
         style.lineWidth, style.pointSize = 2.5, 9
         beside, indices = {}, []
@@ -80,10 +59,7 @@ class LabelOverlay:
         turning = coin.SoIndexedPointSet()
         turning.coordIndex.deleteValues(0)  # the default is one point
         turning.coordIndex.setValues(0, len(labels.turning_points), labels.turning_points.tolist())
-        return light, ink, binding, style, lines, red, turning
-
-    def remove(self):
-        self._root.removeChild(self._node)
+        return (*plain((0.05, 0.05, 0.05)), style, lines, red, turning)
 
 
 class FaceClicks:

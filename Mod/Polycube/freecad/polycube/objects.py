@@ -49,14 +49,22 @@ def is_polycube(obj):
     return getattr(getattr(obj, "Proxy", None), "Type", None) == PolycubeMesh.Type
 
 
+def meshes_of(part):
+    """The mesh objects of ours that are made of the document object `part`, in its document."""
+    return [obj for obj in part.Document.findObjects("Fem::FemMeshObject") if is_polycube(obj) and part_of(obj) == part]
+
+
 def analysis_of(obj):
     """The analysis that holds the object, or None."""
     return next((parent for parent in obj.InList if parent.isDerivedFrom("Fem::FemAnalysis")), None)
 
 
-def set_mesh(obj, result, options, meshed_shape):
-    """Gives the object its mesh. `meshed_shape`: signature of the shape that was meshed. Call inside a transaction. Returns warnings, one line each."""
-    mesh = fem_mesh.build(result)
+def set_mesh(obj, result, options, meshed_shape, mesh=None):
+    """Gives the object its mesh. `meshed_shape`: signature of the shape that was meshed. Call inside a transaction. Returns warnings, one line each.
+
+    `mesh`: what fem_mesh.build() made of the result, where that is done already.
+    """
+    mesh = mesh or fem_mesh.build(result)
     warnings = list(result.report.get("warnings", []))
     obj.MeshedShape = meshed_shape
     analysis = analysis_of(obj)
@@ -75,6 +83,7 @@ def set_mesh(obj, result, options, meshed_shape):
     obj.Report = json.dumps(result.report)
     obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
     obj.MeshState = state(obj)
+    obj.purgeTouched()  # it is as it is to be; FreeCAD's mark would hide the icon of the state
     return warnings
 
 

@@ -126,6 +126,12 @@ def _number(option, value):
     return int(value) if whole else float(value)
 
 
+def without_defaults(options):
+    """The options that are not at their default."""
+    defaults = {option["name"]: option["default"] for option in table()}
+    return {name: value for name, value in options.items() if value != defaults[name]}
+
+
 def add_properties(obj):
     """Adds the option properties that the object does not have yet, with their defaults."""
     for option in document_options():
@@ -188,19 +194,33 @@ def write(obj, options):
             value = _ORDERS[value - 1]
         elif option["type"] == "labels":
             value = ["{}={}".format(face, axis) for face, axis in dict(value or {}).items()]
-        elif option["type"] == "frame":
-            # as on the command line: X / Y
-            value = value if isinstance(value, str) else "/".join(",".join(repr(float(number)) for number in axis) for axis in value)
-        elif isinstance(value, dict):
-            # divisions and sizes, as on the command line
-            value = ",".join("{}={}".format(what, value[what]) for what in value)
-        elif option["type"] == "faces" and not isinstance(value, str):
-            value = ",".join(value)
-        if _current(obj, option) != value:
+        elif isinstance(value, (dict, list, tuple)):
+            value = as_text(option, value)
+        if current(obj, option) != value:
             setattr(obj, property_name(option), value)
 
 
-def _current(obj, option):
+def as_text(option, value):
+    """The value of an option that is written, as on the command line; text stays what it is."""
+    if isinstance(value, str):
+        return value
+    if option["type"] == "frame":
+        return "/".join(",".join(repr(float(number)) for number in axis) for axis in value)
+    if isinstance(value, dict):
+        return ",".join("{}={}".format(what, value[what]) for what in value)
+    return ",".join(value)
+
+
+def from_text(option, text):
+    """The value of an option that is written, as read() has it."""
+    text = text.replace(" ", "")
+    if option["type"] == "labels":
+        return _labels(item for item in text.split(",") if item)
+    return text or option["default"]
+
+
+def current(obj, option):
+    """The plain value of an option's property."""
     value = getattr(obj, property_name(option))
     return value.Value if hasattr(value, "Value") else value
 

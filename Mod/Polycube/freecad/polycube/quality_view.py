@@ -1,13 +1,11 @@
-"""Quality in colours: one scale for the bars of the histogram and the nodes of the mesh."""
+"""Quality in colours: one scale for the bars of the histogram, the nodes of the mesh and the cells that are shown by themselves."""
 
-from . import fem_mesh
+from .measures import BARS, bar_of
 
 #: What FreeCAD paints for the scalars -1, -0.5, 0, 0.5 and 1, with straight lines between, if those given reach from -1 to 1.
 _SCALE = [(0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 1, 0), (1, 0, 0)]
 #: The scalar of the best bar: at -1, pure blue, mesh edges can hardly be seen.
 _BEST = -0.7
-#: A bar is a tenth of scaled Jacobian.
-BARS = 10
 
 
 def _scalar(bar):
@@ -21,17 +19,13 @@ def colour(bar):
     return tuple(a + (place - below) * (b - a) for a, b in zip(_SCALE[below], _SCALE[below + 1]))
 
 
-def bar_of(quality):
-    """The bar in which a scaled Jacobian counts."""
-    return min(max(int(BARS * quality), 0), BARS - 1)
-
-
-def paint(view, mesh):
+def paint(view, cells, measure):
     """Paints the nodes of a view object by the worst of their cells.
 
     FreeCAD's `NodeColor` would take any colour, in a time that grows with the square of the nodes: a minute for 100,000.
     """
-    numbers, quality = fem_mesh.node_quality(mesh)
+    numbers = cells.node_numbers
+    bars = bar_of(cells.node_goodness(measure))
     # FreeCAD's scale goes from the least to the greatest scalar: two nodes that the mesh does not have hold its ends.
     beyond = [max(numbers) + 1, max(numbers) + 2]
-    view.setNodeColorByScalars(numbers + beyond, [_scalar(bar_of(value)) for value in quality] + [-1.0, 1.0])
+    view.setNodeColorByScalars(numbers + beyond, _scalar(bars).tolist() + [-1.0, 1.0])

@@ -1,7 +1,5 @@
-"""The task panel: parameters, the mesher in a child process with live log, and the quality of the mesh."""
+"""The task panel: options by task, the mesher in a child process, and what came out."""
 
-import html
-import json
 import time
 import traceback
 
@@ -9,12 +7,26 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import api, engine, job, label_view, objects, option_table, quality_view, resources, shapes
+from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, resources, shapes
+from .analysis_box import AnalysisBox
+from .axes_section import AxesSection
 from .compat import print_error, qt_number
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
-from .histogram import Histogram
+from .folding import Section
+from .result_section import ResultSection
+from .run import Run
+from .run_section import RunSection
+from .words import count, tr
 
 _TITLE = "Hexahedral mesh"
+#: What may help where a stage fails, by the stage.
+_TRY = {
+    "label": "Try other axes of faces, or another frame.",
+    "deform": "Try other axes of faces, or a finer size.",
+    "quantize": "Try without one of the demands that are named.",
+    "fit": "Try a finer size, more effort, or give up smooth edges (Feature angle).",
+}
+_TRY_ELSE = "Try a finer size, more effort, or other axes of faces."
 
 
 def _exists(obj):
@@ -25,24 +37,11 @@ def _exists(obj):
         return False
 
 
-def _load_form():
-    """The form in a widget that is made here: PySide notices the end of such a widget and of what was laid out in it.
-
-    Of the widget that FreeCAD's loader returns it does not notice it, and would take the next widget at that address for the old one.
-    """
-    form, loaded = QtGui.QWidget(), FreeCADGui.PySideUic.loadUi(resources.path("ui", "MeshPanel.ui"))
-    form.setWindowTitle(loaded.windowTitle())
-    layout = QtGui.QVBoxLayout(form)
-    layout.setContentsMargins(0, 0, 0, 0)
-    layout.addWidget(loaded)
-    vars(form).update(vars(loaded))
-    return form
-
-
 class MeshPanel:
     """Apply runs the mesher, Cancel stops it, OK is refused while it runs.
 
-    The document changes once, when the mesh is there; without a mesh object, one is made then.
+    The document changes once, when the mesh is there; without a mesh object, one is made then. The widgets are made here, not by FreeCAD's loader: PySide
+    does not notice the end of those, and would take the next widget at that address for the old one.
     """
 
     _running = None  # the one panel that meshes at present: FreeCAD shows one task panel at a time
@@ -50,35 +49,72 @@ class MeshPanel:
 
     def __init__(self, part, obj=None, analysis=None):
         self.part, self.obj = part, obj
-        self.analysis = objects.analysis_of(obj) if obj else analysis
         self.document_name = part.Document.Name if part else obj.Document.Name
-        self.form = _load_form()
-        self.form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
-        self.histogram = Histogram()
-        self.form.quality_layout.insertWidget(1, self.histogram)
-        self.form.worst.itemSelectionChanged.connect(self._highlight)
-        self.form.colours.toggled.connect(self._colour)
-        self.timer = QtCore.QTimer()
-        self.timer.setInterval(100)
-        self.timer.timeout.connect(self._watch)
-        self.process = self.job = self.reason = None  # the reason why the process was killed
-        self.started = self.process_started = 0.0
+        self.process = None  # the Run, while there is one
+        self.started = 0.0
+        self._taking = False
+        self._filling = True
+        self._meshed_options, self._meshed_shape, self._before = {}, [], {}
         self.options = option_table.read(obj) if obj else {}
-        self.labels = dict(self.options.get("labels", {}))  # set by hand: {"Face3": "+X"}
-        self.overlay = self.clicks = self.shown_labels = None
-        self._automatic_labels = {}  # of faces before they were set by hand, as far as is known
-        self._labels_are_old = False
-        self._meshed_options, self._meshed_shape = {}, []
-        self.form.label_key.setText(label_view.key())
-        self.form.preview.toggled.connect(self._preview)
-        self.form.automatic.clicked.connect(self._automatic)
+        self.analysis_box = AnalysisBox(FreeCAD.getDocument(self.document_name), objects.analysis_of(obj) if obj else None, analysis)
+        self.analysis = self.analysis_box.chosen()  # that of the mesh that is made
+        self.form = self._make_form()
         self._show_parameters()
-        self._show_quality()
+        self._filling = False
+        self.result.show_mesh()
+        self.changed()
         FreeCAD.addDocumentObserver(self)
+
+    def _make_form(self):
+        form = QtGui.QWidget()
+        form.setWindowTitle(tr(_TITLE))
+        form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
+        options = option_table.document_options()
+        advanced = [option for option in options if option["advanced"] and option["type"] not in fields.PLACES]
+        places = [option for option in options if option["type"] in fields.PLACES and option["type"] not in ("labels", "frame")]
+        plain = [option for option in options if not option["advanced"] and option["type"] not in fields.PLACES]
+        form.parameters = QtGui.QWidget()
+        form.part = QtGui.QLabel()
+        form.part.setWordWrap(True)
+        size = Section(tr("Size"), "size_section")
+        self.size_form = fields.OptionForm(plain, self.changed)
+        form.size_hint = QtGui.QLabel()
+        form.size_hint.setWordWrap(True)
+        size.body.addWidget(self.size_form)
+        size.body.addWidget(form.size_hint)
+        self.axes = AxesSection(self, [option for option in options if option["type"] == "frame"])
+        self.refine = Section(tr("Refine"), "refine_section", is_open=False, tooltip=tr("Other sizes and numbers of cells at places of the part"))
+        self.refine_form = fields.OptionForm(places, self.changed)
+        self.refine.body.addWidget(self.refine_form)
+        self.advanced = Section(tr("Advanced"), "advanced_section", is_open=False)
+        self.advanced_form = fields.OptionForm(advanced, self.changed)
+        self.advanced.body.addWidget(self.advanced_form)
+        self._forms = (self.size_form, self.axes.form, self.refine_form, self.advanced_form)
+        head = QtGui.QFormLayout()
+        head.addRow(QtGui.QLabel(tr("Part:")), form.part)
+        head.addRow(QtGui.QLabel(tr("Analysis:")), self.analysis_box)
+        parameters = QtGui.QVBoxLayout(form.parameters)
+        parameters.setContentsMargins(0, 0, 0, 0)
+        parameters.addLayout(head)
+        for section in (size, self.axes, self.refine, self.advanced):
+            parameters.addWidget(section)
+        form.run = RunSection()
+        form.run.best.clicked.connect(self.take_the_best)
+        form.log, form.status, form.progress, form.time = form.run.log, form.run.status, form.run.progress, form.run.time
+        self.result = ResultSection(self)
+        layout = QtGui.QVBoxLayout(form)
+        layout.setContentsMargins(0, 0, 0, 0)
+        for widget in (form.parameters, form.run, self.result):
+            layout.addWidget(widget)
+        return form
 
     @classmethod
     def is_meshing(cls, obj):
         return cls._running is not None and cls._running.obj == obj
+
+    def field(self, name):
+        """The editor of an option."""
+        return next(form.fields[name] for form in self._forms if name in form.fields)
 
     # --- what FreeCAD calls -------------------------------------------------------------------------------------------------
 
@@ -109,380 +145,350 @@ class MeshPanel:
     def getStandardButtons(self):
         return qt_number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
 
+    def modifyStandardButtons(self, box):
+        """Three buttons of FreeCAD's width, with icons, are wider than the dock as it opens it: they may shrink to their text."""
+        for button in box.buttons():
+            button.setIcon(QtGui.QIcon())
+            button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
+            button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
+
     def clicked(self, button):
         if qt_number(button) == qt_number(QtGui.QDialogButtonBox.Apply):
             self.apply()
 
     def accept(self):
-        if self.process:
-            self.log("The mesher is running: wait, or stop it with Cancel.", error=True)
+        if self.process or self._taking:
+            self.tell(tr("The mesher is running: wait, or stop it with Cancel."), error=True)
             return False
-        if _exists(self.obj) and self._parameters() != option_table.read(self.obj):
-            with api.transaction(self.obj.Document, "Mesh parameters"):
-                option_table.write(self.obj, self._parameters())
+        if self.mesh_exists():
+            try:
+                self._keep_parameters()
+            except InvalidInput as error:
+                self.tell(str(error), error=True)
+                return False
         return self._close()
+
+    def _keep_parameters(self):
+        """The mesh object gets options and analysis of the panel, without being meshed, where they are others."""
+        options, before = self._parameters(), option_table.read(self.obj)
+        analysis, held_by = self.analysis_box.chosen(), objects.analysis_of(self.obj)
+        if options == before and analysis == held_by:
+            return
+        with api.transaction(self.obj.Document, tr("Mesh parameters")):
+            option_table.write(self.obj, options)
+            analyses.move(self.obj, analysis)
+        macro.set_options(self.obj, before, options)
+        if analysis != held_by:
+            macro.set_analysis(self.obj, analysis)
 
     def reject(self):
         if self.process:
             self.cancel()
             return False
-        return self._close()
+        return not self._taking and self._close()
 
     # --- running the mesher -------------------------------------------------------------------------------------------------
 
     def apply(self):
         """Starts the mesher with the panel's parameters."""
-        if self.process:
-            self.log("The mesher is running already.", error=True)
+        if self.process or self._taking:
+            self.tell(tr("The mesher is running already."), error=True)
             return
         self.form.log.clear()
-        self.obj = self.obj if _exists(self.obj) else None
-        self._meshed_options = self._parameters()
+        self.obj = self.obj if self.mesh_exists() else None
+        self.analysis = self.analysis_box.chosen()
+        try:
+            self._meshed_options = self._parameters()
+            self._before = option_table.read(self.obj) if self.obj else {}
+        except InvalidInput as error:
+            self.tell(str(error), error=True)
+            return
+        if not self._may_go_on():
+            return
         options = self._meshed_options
-        if _exists(self.part):
-            options = api.with_constraints(options, self.part, self.analysis if _exists(self.analysis) else None)
-        self._start("mesh", options, "Meshing")
+        if self.part_exists():
+            options = api.with_constraints(options, self.part, self.analysis)
+        self._start("mesh", options, tr("Meshing"))
 
-    def _start(self, what, options, message):
+    def _may_go_on(self):
+        """Asks where the count of cells or the analysis would be a surprise."""
+        expected = self._prediction(self._meshed_options)
+        if expected and expected.is_startling():
+            question = tr("Local sizes make about {} cells of {}: the grid goes through the whole part. Make the mesh?")
+            if not _agreed(question.format(count(round(expected.cells)), count(round(expected.plain)))):
+                return False
+        if not self.analysis:
+            return True
+        others = analyses.other_meshes(self.analysis, self.obj)
+        if not others:
+            return True
+        names = ", ".join(mesh.Label for mesh in others)
+        return _agreed(tr("{} holds the mesh {} already. Put the new mesh in its place? The old one stays in the document.").format(self.analysis.Label, names))
+
+    def start_labels(self):
+        """Computes the labels for the preview."""
+        try:
+            self._start("labels", self._parameters(), tr("Labelling"))
+        except InvalidInput as error:
+            self.tell(str(error), error=True)
+
+    def _start(self, what, options, words):
         """Starts the child process that makes "mesh" or "labels"; _finished takes what it made."""
         self.started = time.monotonic()
+        work = None
         try:
-            if not _exists(self.part):
-                raise PolycubeError("there is no part to mesh")
-            shape = shapes.shape_of(self.part, self._beside())
+            if not self.part_exists():
+                raise PolycubeError(tr("there is no part to mesh"))
+            shape = shapes.shape_of(self.part, self.beside())
             shapes.check_solid(shape)
             self._meshed_shape = shapes.signature(shape)
-            self.job = job.Job(shape, options, what)
-            program, *arguments = self.job.command()
-            environment = self.job.environment()
+            work = job.Job(shape, options, what)
+            self.process = Run(work, self._heard, self._show_time, self._finished)
         except (PolycubeError, OSError) as error:
-            self._close_job()
-            self.log(str(error), error=True)
+            if work:
+                work.close()
+            self._fail(error)
             return
-        self.reason = None
-        self._out, self._err = "", ""
-        variables = QtCore.QProcessEnvironment()
-        for name, value in environment.items():
-            variables.insert(name, value)
-        self.process = QtCore.QProcess()
-        self.process.setProcessEnvironment(variables)
-        self.process.readyReadStandardOutput.connect(self._read_output)
-        self.process.readyReadStandardError.connect(self._read_error)
-        self.process.finished.connect(self._finished)
-        self.process.errorOccurred.connect(self._not_started)
         MeshPanel._running = self
         self.form.parameters.setEnabled(False)
-        self.log("{} {} ...".format(message, self.part.Label))
-        self.timer.start()
-        self.process_started = time.monotonic()
-        self.process.start(program, arguments)
+        self.form.run.begin("{} {} ...".format(words, self.part.Label))
+        self.log("{} {} ...".format(words, self.part.Label))
+        self.process.start()
 
-    def _beside(self):
-        """What the mesh will be beside: its object or its analysis, as far as there are any."""
-        return next(filter(_exists, (self.obj, self.analysis)), None)
+    @property
+    def job(self):
+        """The job that runs, or None."""
+        return self.process.job if self.process else None
 
     def cancel(self):
         """Kills the mesher; the panel stays."""
         if self.process:
-            self._kill("cancelled")
+            self.process.kill("cancelled")
 
-    def _kill(self, reason):
-        self.reason = reason
-        job.kill_tree(int(self.process.processId()))
+    def take_the_best(self):
+        """Ends the search for a better mesh."""
+        if self.process:
+            self.form.run.best.setEnabled(False)
+            self.process.take_the_best()
 
-    def _watch(self):
-        """Ten times a second while the mesher runs."""
-        self._show_time()
-        if not self.reason and self.job.out_of_time(time.monotonic() - self.process_started):
-            self._kill("out of time")
+    def _heard(self, kind, value):
+        if kind == "progress":
+            self.form.run.show_progress(*value)
+        else:
+            self.form.run.hear(value)
+            self.log(value)
 
-    def _read_output(self):
-        self._out += bytes(self.process.readAllStandardOutput()).decode("utf-8", "replace")
-        *lines, self._out = self._out.split("\n")
-        for line in lines:
-            kind, value = job.Job.parse(line)
-            if kind == "progress":
-                self.form.progress.setValue(round(100 * value[1]))
-                self.form.progress.setFormat(value[0] + " %p%")
-            else:
-                self.log(value)
+    def _show_time(self, seconds):
+        self.form.time.setText("{:.1f} s".format(seconds))
 
-    def _read_error(self):
-        self._err = (self._err + bytes(self.process.readAllStandardError()).decode("utf-8", "replace"))[-4000:]
-
-    def _not_started(self, error):
-        if error == QtCore.QProcess.FailedToStart:
-            self._finished(-1, None)
-
-    def _finished(self, status, exit_status):
-        if not self.process:
-            return
-        if exit_status == QtCore.QProcess.CrashExit:
-            status = -1
-        self._read_output()
-        self._read_error()
-        process, self.process = self.process, None
-        process.deleteLater()
+    def _finished(self, made, error):
+        what, self.process = self.process.job.what, None
         MeshPanel._running = None
-        self.timer.stop()
-        self._show_time()
+        if self._form is None:  # closed meanwhile
+            return
+        self._show_time(time.monotonic() - self.started)
+        self.form.run.end()
         self.form.parameters.setEnabled(True)
         try:
-            if self.reason:
-                raise Cancelled(self.reason)
-            made = self.job.finish(status, self._err)
-            (self._take if self.job.what == "mesh" else self._show_labels)(made)
-        except StageFailed as error:
-            self.log(str(error), error=True)
+            if error:
+                raise error
+            (self._take if what == "mesh" else self._show_labels)(made)
+        except PolycubeError as failure:
+            self._fail(failure)
+        if self._form is not None:
+            self.axes.catch_up()
+
+    def _fail(self, error):
+        """Says what went wrong, where, and what may help."""
+        text = str(error)
+        self.log(text, error=True)
+        if isinstance(error, Cancelled):
+            text = text[0].upper() + text[1:] + "."
+        elif isinstance(error, StageFailed):
+            text = tr("Refused: {}.").format(text) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
             self._select(error.entities)
-        except PolycubeError as error:
-            self.log(str(error), error=True)
-        finally:
-            self._close_job()
-        self.form.progress.setFormat("%p%")
-        if self._labels_are_old and self.form.preview.isChecked():
-            self._update_labels()
+        self.form.run.tell(text, error=True)
 
     def _take(self, result):
         """Puts the mesh into the document, in one undo step."""
-        if not _exists(self.part):
-            raise PolycubeError("the part is gone")
-        self.obj = self.obj if _exists(self.obj) else None
-        document = FreeCAD.getDocument(self.document_name)
+        self._taking = True
         QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
         try:
-            with api.transaction(document, _TITLE if self.obj else "Hexahedral mesh from shape"):
-                if not self.obj:
-                    self.obj = objects.make(document, self.part)
-                    if _exists(self.analysis):
-                        self.analysis.addObject(self.obj)
-                warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape)
+            mesh = fem_mesh.build(result, self._breathe)
+            if self._form is None:
+                return
+            if not self.part_exists():
+                raise PolycubeError(tr("the part is gone"))
+            self.axes.preview.setChecked(False)
+            self.result.clear()
+            warnings = self._put(result, mesh)
+            self.show_mesh()
+            self.result.show_mesh()
+            self.result.set_open(True)
         finally:
             QtGui.QApplication.restoreOverrideCursor()
-        self.form.preview.setChecked(False)
-        self.form.colours.setChecked(False)
+            self._taking = False
         self.form.progress.setValue(100)
         for line in warnings:
-            self.log("Warning: " + line, error=True)
-        self.log("{} cells, {} nodes.".format(len(result.hexes), len(result.nodes)))
-        self.obj.ViewObject.show()
-        shapes.solid_object(self.part).ViewObject.hide()  # not its container, the mesh may be in that too
-        self._show_quality()
+            self.log(tr("Warning: ") + line, error=True)
+        text = tr("Meshed: {} cells, {} nodes, worst cell {:.2f}.").format(count(len(result.hexes)), count(len(result.nodes)), self.obj.MinScaledJacobian)
+        if warnings:
+            text += " " + (warnings[0] if len(warnings) == 1 else tr("{} warnings, see the log: {} ...").format(len(warnings), warnings[0]))
+        self.tell(text)
+        self._show_hint()
 
-    def _close_job(self):
-        if self.job:
-            self.job.close()
-            self.job = None
+    def _put(self, result, mesh):
+        """Object, mesh and place in the analysis; returns warnings."""
+        document = FreeCAD.getDocument(self.document_name)
+        self.obj = self.obj if self.mesh_exists() else None
+        analysis = self.analysis if _exists(self.analysis) else None
+        is_new = self.obj is None
+        with api.transaction(document, tr("Hexahedral mesh from shape") if is_new else tr(_TITLE)):
+            if is_new:
+                self.obj = objects.make(document, self.part)
+            held_by = objects.analysis_of(self.obj)
+            for other in analyses.other_meshes(analysis, self.obj) if analysis else []:
+                analysis.removeObject(other)
+                other.ViewObject.hide()
+            analyses.move(self.obj, analysis)
+            warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh)
+        if is_new:
+            macro.created(self.obj, self._meshed_options)
+        else:
+            macro.updated(self.obj, self._before, self._meshed_options)
+        if analysis != held_by:
+            macro.set_analysis(self.obj, analysis)
+        return warnings
+
+    def _breathe(self, fraction):
+        """The window goes on while a large mesh is taken; nothing can be clicked."""
+        if self._form is not None:
+            self.form.run.show_progress(tr("Taking the mesh"), fraction)
+        QtGui.QApplication.processEvents(QtCore.QEventLoop.ExcludeUserInputEvents)
+
+    def _show_labels(self, labels):
+        line, good = self.axes.show_labels(labels)
+        self.form.progress.setValue(100)
+        self.tell(line, error=not good)
 
     def _end(self):
         """Nothing goes on that the panel has begun, and its marks go."""
         FreeCAD.removeDocumentObserver(self)
-        self._labels_are_old = False
         if self.process:
+            process = self.process
             self.cancel()
-            self.process.waitForFinished()  # it was killed; _finished is called here
-        self._end_preview()
-        self._clear_marks()
+            process.wait()  # it was killed; _finished is called here
+        self.axes.end()
+        self.result.clear()
 
     def _close(self):
-        gui_document = FreeCADGui.getDocument(self.document_name) if self.document_name in FreeCAD.listDocuments() else None
+        gui_document = FreeCADGui.getDocument(self.document_name) if self.document_is_open() else None
         if gui_document and gui_document.getInEdit():
             gui_document.resetEdit()
         else:
             FreeCADGui.Control.closeDialog()
         return True
 
-    # --- axes of faces -------------------------------------------------------------------------------------------------------
+    # --- what sections ask ---------------------------------------------------------------------------------------------------
 
-    def _preview(self, wanted):
-        """Begins or ends to show the labels on the part."""
-        self.form.label_key.setVisible(wanted)
-        if not wanted:
-            self._end_preview()
-        elif _exists(self.part):
-            self._show_part()
-            if _exists(self.obj):
-                self.obj.ViewObject.hide()
-            beside = self._beside()
-            self.overlay = label_view.LabelOverlay(self.part.Document, shapes.standing(beside) if beside else FreeCAD.Placement())
-            self.clicks = label_view.FaceClicks(shapes.solid_object(self.part), self.face_clicked)
-            self._update_labels()
+    def part_exists(self):
+        return _exists(self.part)
 
-    def _end_preview(self):
-        if self.clicks:
-            self.clicks.remove()
-        if self.overlay and self.document_name in FreeCAD.listDocuments():
-            self.overlay.remove()
-        self.clicks = self.overlay = self.shown_labels = None
+    def mesh_exists(self):
+        return _exists(self.obj)
 
-    def _update_labels(self):
-        """Computes the labels anew, after what runs now."""
-        self._labels_are_old = True
-        if not self.process:
-            self._labels_are_old = False
-            self._start("labels", self._parameters(), "Labelling")
+    def document_is_open(self):
+        return self.document_name in FreeCAD.listDocuments()
 
-    def _show_labels(self, labels):
-        self.shown_labels = labels
-        self.form.progress.setValue(100)
-        if self.overlay:
-            self.overlay.show(labels)
-        lost = sum(fate == "lost" for fate, _ in labels.edges.values())
-        self.log(
-            "{} charts, {}, {} turning points, {} CAD edges not captured.".format(
-                labels.chart.max() + 1, "valid" if labels.valid else "not valid", len(labels.turning_points), lost
-            )
-        )
+    def beside(self):
+        """What the mesh will be beside: its object or its analysis, as far as there are any."""
+        return next(filter(_exists, (self.obj, self.analysis_box.chosen())), None)
 
-    def face_clicked(self, face):
-        """The next of the axes that the face can have, or automatic again."""
-        if not self.shown_labels:
-            return
-        names = engine.description()["label_names"]
-        name = "Face{}".format(face)
-        possible = self.shown_labels.possible(face)
-        given = names.index(self.labels[name]) if name in self.labels else None
-        if given is None:
-            self._automatic_labels[face] = self.shown_labels.face_label[face]
-        label = label_view.next_label(given, self._automatic_labels.get(face), possible)
-        if not possible:
-            self.log("{} turns too far for any one axis.".format(name), error=True)
-            return
-        if label is None:
-            del self.labels[name]
-        else:
-            self.labels[name] = names[label]
-        self.log("{}: {}".format(name, "automatic" if label is None else names[label]))
-        self._labels_changed()
-
-    def _automatic(self):
-        chosen = [item.text().split("=")[0] for item in self.form.given_labels.selectedItems()] or list(self.labels)
-        for name in chosen:
-            del self.labels[name]
-        if chosen:
-            self._labels_changed()
-
-    def _labels_changed(self):
-        self._list_labels()
-        if self.form.preview.isChecked():
-            self._update_labels()
-
-    def _list_labels(self):
-        self.form.given_labels.clear()
-        self.form.given_labels.addItems(["{}={}".format(*item) for item in sorted(self.labels.items(), key=lambda item: int(item[0][4:]))])
-
-    # --- what the panel shows -----------------------------------------------------------------------------------------------
-
-    def log(self, text, error=False):
-        stamp = "{:.1f}: ".format(time.monotonic() - self.started) if self.started else ""
-        line = html.escape(stamp + text)
-        self.form.log.appendHtml('<span style="color:#c02020">{}</span>'.format(line) if error else line)
-        (print_error if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
-
-    def _show_time(self):
-        self.form.time.setText("{:.1f} s".format(time.monotonic() - self.started))
-
-    def _show_parameters(self):
-        self.form.part.setText(self.part.Label if self.part else "none")
-        self.form.element_size.setProperty("unit", "mm")
-        self.form.element_size.setProperty("rawValue", self.options.get("size", 0.0))
-        self.form.hexes.setValue(self.options.get("hexes", 0))
-        self.form.order.setCurrentIndex(self.options.get("order", 2) - 1)
-        self._list_labels()
-        try:
-            shape = shapes.shape_of(self.part)
-        except InvalidInput:  # Apply tells
-            return
-        if shape.isNull():
-            return
-        length = FreeCAD.Units.Quantity(shape.BoundBox.DiagonalLength / 30, FreeCAD.Units.Length).UserString
-        self.form.size_hint.setText("0 is automatic: {}".format(length))
-
-    def _parameters(self):
-        """The options as the panel shows them, without defaults; the advanced ones come from the object's properties."""
-        options = dict(option_table.read(self.obj) if self.obj else self.options)
-        shown = {
-            "size": float(self.form.element_size.property("rawValue")),
-            "hexes": self.form.hexes.value(),
-            "order": self.form.order.currentIndex() + 1,
-            "labels": dict(self.labels),
-        }
-        defaults = {option["name"]: option["default"] for option in option_table.table()}
-        for name, value in shown.items():
-            options.pop(name, None)
-            if value != defaults[name]:
-                options[name] = value
-        return options
-
-    def _show_quality(self):
-        if not self.obj or not self.obj.Report:
-            return
-        report = json.loads(self.obj.Report)
-        quality, captured = report["quality"], report["cad"]
-        self.histogram.set_counts(quality["histogram"])
-        outdated = self.obj.MeshState == objects.OUTDATED
-        self.form.summary.setText(
-            ("The mesh is out of date: press Apply.\n" if outdated else "")
-            + "{} cells, {} nodes\nScaled Jacobian: min {:.3f}, mean {:.3f}\n{}Of the CAD model: {}".format(
-                self.obj.Hexahedra,
-                self.obj.NodeCount,
-                quality["min_scaled_jacobian"],
-                quality["mean_scaled_jacobian"],
-                _shape_line(quality),
-                ", ".join("{captured}/{total} ".format(**captured[what]) + what for what in ("faces", "edges", "vertices")),
-            )
-        )
-        self.form.colours.setEnabled(True)
-        worst = report["worst_cells"]
-        self.form.worst.setRowCount(len(worst))
-        for row, cell in enumerate(worst):
-            place = ", ".join(cell["faces"]) or "inside"
-            for column, text in enumerate((str(cell["hex"] + 1), "{:.3f}".format(cell["scaled_jacobian"]), place)):
-                self.form.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
-        self.form.worst.resizeColumnsToContents()
-
-    def _highlight(self):
-        """Marks the nodes of the cell selected in the list."""
-        rows = self.form.worst.selectionModel().selectedRows()
-        if not rows or not _exists(self.obj):
-            return
-        cell = int(self.form.worst.item(rows[0].row(), 0).text())
-        self.obj.ViewObject.HighlightedNodes = list(self.obj.FemMesh.getElementNodes(cell))
-
-    def _colour(self, wanted):
-        """Paints the nodes by the worst of their cells."""
-        if not _exists(self.obj):
-            return
-        if not wanted:
-            self.obj.ViewObject.resetNodeColor()
-            return
-        quality_view.paint(self.obj.ViewObject, self.obj.FemMesh)
-
-    def _clear_marks(self):
-        if not _exists(self.obj):
-            return
-        if self.form.worst.selectionModel().hasSelection():
-            self.obj.ViewObject.HighlightedNodes = []
-        if self.form.colours.isChecked():
-            self.obj.ViewObject.resetNodeColor()
-
-    def _show_part(self):
+    def show_part(self):
         for obj in (self.part, shapes.solid_object(self.part)):
             obj.ViewObject.show()
 
+    def show_mesh(self):
+        """The mesh in place of the part."""
+        self.obj.ViewObject.show()
+        if self.part_exists():
+            shapes.solid_object(self.part).ViewObject.hide()  # not its container, the mesh may be in that too
+
     def _select(self, entities):
         """Shows the CAD entities at fault in the 3D view."""
-        if entities:
-            self._show_part()
+        if entities and self.part_exists():
+            self.show_part()
             FreeCADGui.Selection.clearSelection()
             top, path = shapes.selection_path(shapes.solid_object(self.part))
             for name in entities:
                 FreeCADGui.Selection.addSelection(top, path + name)
 
+    # --- what the panel shows -----------------------------------------------------------------------------------------------
 
-def _shape_line(quality):
-    """The worst of the other measures; documents of older versions have none."""
-    names = ("edge_ratio", "skew", "warpage")
-    if not all(name in quality for name in names):
-        return ""
-    return "Worst cells: " + ", ".join("{} {:.2f}".format(name.replace("_", " "), quality[name]["max"]) for name in names) + "\n"
+    def tell(self, text, error=False):
+        """The one line about what happened; it is in the log too."""
+        self.form.run.tell(text, error)
+        self.log(text, error)
+
+    def log(self, text, error=False):
+        self.form.run.write(time.monotonic() - self.started if self.started else None, text, error)
+        (print_error if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
+
+    def changed(self):
+        """The user has changed an option."""
+        if self._filling:
+            return
+        fineness = [self.field(name) for name in fields.FINENESS]
+        used = [one for one in fineness if one.value != one.option["default"]]
+        for one in fineness:
+            one.widget.setEnabled(not used or one in used)
+        self._show_hint()
+
+    def _show_parameters(self):
+        self.form.part.setText(self.part.Label if self.part else tr("none"))
+        for form in self._forms:
+            form.set_values(self.options)
+        self.axes.set_labels(self.options.get("labels", {}))
+        self.refine.set_open(bool(self.refine_form.values()))
+
+    def _show_hint(self):
+        """What automatic is, and how many cells there will be."""
+        try:
+            shape = shapes.shape_of(self.part)
+            if shape.isNull():
+                return
+            automatic = FreeCAD.Units.Quantity(prediction.size_of(shape, {}), FreeCAD.Units.Length).UserString
+            lines = [tr("0 is automatic: {}").format(automatic)]
+            expected = self._prediction(self._parameters())
+        except InvalidInput:  # Apply tells
+            return
+        if expected:
+            cells = tr("about {} cells").format(count(_rounded(expected.cells)))
+            if expected.cells > 1.5 * expected.plain:
+                cells = tr("up to {}, {} without local sizes").format(cells, count(_rounded(expected.plain)))
+            lines.append(cells)
+        self.form.size_hint.setText("\n".join(lines))
+
+    def _prediction(self, options):
+        try:
+            return prediction.predict(shapes.shape_of(self.part), options) if self.part_exists() else None
+        except InvalidInput:
+            return None
+
+    def _parameters(self):
+        """The options as the panel shows them, without defaults. InvalidInput for what cannot be read."""
+        found = {"labels": dict(self.axes.labels)} if self.axes.labels else {}
+        for form in self._forms:
+            found.update(form.values())
+        return found
+
+
+def _rounded(number):
+    """Two digits are known of a prediction, not more."""
+    number = round(number)
+    return round(number, 2 - len(str(number)))
+
+
+def _agreed(question):
+    buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
+    return QtGui.QMessageBox.question(FreeCADGui.getMainWindow(), tr(_TITLE), question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes

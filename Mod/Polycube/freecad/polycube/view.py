@@ -1,9 +1,10 @@
 """What the tree and the mouse do with a mesh object."""
 
+import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
-from . import objects, resources
+from . import macro, objects, resources
 
 _ICONS = {objects.EMPTY: "Polycube_MeshEmpty", objects.CURRENT: "Polycube_MeshFromShape", objects.OUTDATED: "Polycube_MeshOutOfDate"}
 
@@ -34,6 +35,7 @@ class PolycubeMeshView(objects.Stateless):
         analysis = objects.analysis_of(view.Object)
         if analysis:
             FemGui.setActiveAnalysis(analysis)
+        macro.begin()
         document.setEdit(view.Object.Name)
         return True
 
@@ -42,8 +44,8 @@ class PolycubeMeshView(objects.Stateless):
 
         if mode != 0:
             return False
-        view.show()
         FreeCADGui.Control.showDialog(MeshPanel(objects.part_of(view.Object), view.Object))
+        QtCore.QTimer.singleShot(0, lambda: _after_double_click(view.Object))
         return True
 
     def unsetEdit(self, view, mode=0):
@@ -64,3 +66,13 @@ class PolycubeMeshView(objects.Stateless):
         question = "{} is the mesh of {}. Delete it?".format(view.Object.Label, analysis.Label)
         buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
         return QtGui.QMessageBox.warning(window, "Hexahedral mesh", question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
+
+
+def _after_double_click(obj):
+    """Shows the mesh, in no undo step. FreeCAD leaves a transaction "Edit" open as long as something is edited, which all that the panel does would be part of."""
+    if FreeCAD.getActiveTransaction():
+        FreeCAD.closeActiveTransaction(True)
+    try:
+        obj.ViewObject.show()
+    except (ReferenceError, RuntimeError, AttributeError):  # it is gone already
+        pass

@@ -1,0 +1,300 @@
+"""The panel's section "Result": quality as numbers, bars and colours, the worst cells, cells by themselves, and what of the CAD model is not captured."""
+
+import json
+
+from PySide import QtCore, QtGui
+
+from . import objects, overlay, quality_view, shapes
+from .cell_view import CellOverlay, Hidden, zoom
+from .folding import Section
+from .histogram import Histogram
+from .measures import BARS, MEASURES, Cells
+from .words import count, tr
+
+#: Cells in the list of the worst.
+_WORST = 20
+_RED = (0.86, 0.08, 0.12)
+
+
+class ResultSection(Section):
+    """What there is to see of the mesh of `panel.obj`. Nothing here changes the document."""
+
+    def __init__(self, panel):
+        super().__init__(tr("Result"), "quality")
+        self._panel = panel
+        self._cells = self._cells_of = None  # computed when they are first asked for, of that Report
+        self._cell_overlay = self._hidden = self._lost_overlay = None
+        self._updating = False
+        self.summary = QtGui.QLabel(tr("No mesh yet"))
+        self.summary.setWordWrap(True)
+        self.measure_box = QtGui.QComboBox()
+        self.measure_box.addItems([tr(measure.title) for measure in MEASURES])
+        self.measure_box.setToolTip(tr("What bars, colours, threshold and list judge the cells by"))
+        self.histogram = Histogram(clicked=self._bar_clicked)
+        self.colours = QtGui.QCheckBox(tr("Quality in colours"))
+        self.colours.setToolTip(tr("Paints the mesh as the bars: blue is good, red is bad"))
+        self.below = QtGui.QCheckBox(tr("Worse than"))
+        self.below.setToolTip(tr("Shows the cells beyond this value alone"))
+        self.threshold = QtGui.QDoubleSpinBox()
+        self.threshold.setDecimals(2)
+        self.threshold.setSingleStep(0.05)
+        self.threshold.setMaximum(1e6)
+        self.threshold.setMinimumWidth(50)
+        self.cut = QtGui.QComboBox()
+        self.cut.addItems([tr("No cut"), tr("Cut X"), tr("Cut Y"), tr("Cut Z")])
+        self.cut.setToolTip(tr("Takes the cells on one side of a plane away, whole"))
+        self.cut_place = QtGui.QSlider(QtCore.Qt.Horizontal)
+        self.cut_place.setRange(0, 100)
+        self.cut_place.setValue(50)
+        self.lost = QtGui.QCheckBox(tr("Lost CAD edges"))
+        self.lost.setToolTip(tr("Draws the CAD edges that have no mesh edges in red"))
+        self.worst = QtGui.QTableWidget(0, 3)
+        self.worst.setHorizontalHeaderLabels([tr("Cell"), tr("Quality"), tr("At")])
+        self.worst.setMinimumSize(60, 120)
+        self.worst.setToolTip(tr("The worst cells; a click marks one, a double click looks at it closely"))
+        self.worst.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
+        self.worst.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
+        self.worst.setSelectionMode(QtGui.QAbstractItemView.SingleSelection)
+        self.worst.verticalHeader().setVisible(False)
+        self.worst.horizontalHeader().setStretchLastSection(True)
+        self._lay_out()
+        self.measure_box.currentIndexChanged.connect(self._measure_changed)
+        self.colours.toggled.connect(self._colour)
+        self.below.toggled.connect(self._isolate)
+        self.threshold.valueChanged.connect(lambda _: self.below.isChecked() and self._isolate())
+        self.cut.currentIndexChanged.connect(self._isolate)
+        self.cut_place.valueChanged.connect(lambda _: self.cut.currentIndex() and self._isolate())
+        self.lost.toggled.connect(self._show_lost)
+        self.worst.itemSelectionChanged.connect(self._highlight)
+        self.worst.itemDoubleClicked.connect(self._zoom)
+
+    def _lay_out(self):
+        self._tools = QtGui.QWidget()
+        tools = QtGui.QVBoxLayout(self._tools)
+        tools.setContentsMargins(0, 0, 0, 0)
+        rows = [[self.below, self.threshold], [self.cut, self.cut_place]]
+        for widget in (self.measure_box, self.histogram, self.colours):
+            tools.addWidget(widget)
+        for row in rows:
+            line = QtGui.QHBoxLayout()
+            for widget in row:
+                line.addWidget(widget)
+            tools.addLayout(line)
+        tools.addWidget(self.lost)
+        tools.addWidget(self.worst)
+        self.body.addWidget(self.summary)
+        self.body.addWidget(self._tools)
+        self._tools.setEnabled(False)
+        for box in (self.measure_box, self.cut):
+            box.setMinimumContentsLength(6)
+            box.setSizeAdjustPolicy(QtGui.QComboBox.AdjustToMinimumContentsLengthWithIcon)
+
+    # --- what there is ---------------------------------------------------------------------------------------------------
+
+    def show_mesh(self):
+        """The numbers of the mesh as it is now; all marks of an earlier one go."""
+        obj = self._panel.obj
+        if not obj or not obj.Report:
+            return
+        self.clear()
+        report = json.loads(obj.Report)
+        self._report = report
+        quality, captured = report["quality"], report["cad"]
+        lines = [tr("The mesh is out of date: press Apply.")] if obj.MeshState == objects.OUTDATED else []
+        lines.append(tr("{} cells, {} nodes").format(count(obj.Hexahedra), count(obj.NodeCount)))
+        lines.append(tr("Scaled Jacobian: min {:.3f}, mean {:.3f}").format(quality["min_scaled_jacobian"], quality["mean_scaled_jacobian"]))
+        others = [measure for measure in MEASURES[1:] if measure.name in quality]  # documents of older versions have none
+        if others:
+            lines.append(tr("Worst cells: ") + ", ".join("{} {:.2f}".format(tr(one.title).lower(), quality[one.name]["max"]) for one in others))
+        captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in ("faces", "edges", "vertices"))
+        lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
+        self.summary.setText("\n".join(lines))
+        self._tools.setEnabled(True)
+        missing = captured["edges"]["lost"] + captured["edges"]["ignored"]
+        self.lost.setVisible(bool(missing))
+        self.lost.setText(tr("{} lost CAD edges").format(len(missing)))
+        self._judge()
+
+    @property
+    def measure(self):
+        return MEASURES[self.measure_box.currentIndex()]
+
+    def cells(self):
+        """The cells of the mesh as arrays."""
+        obj = self._panel.obj
+        if self._cells is None or self._cells_of != obj.Report:
+            self._cells, self._cells_of = Cells(obj.FemMesh), obj.Report
+        return self._cells
+
+    def _measure_changed(self):
+        self._judge()
+        if self.colours.isChecked():
+            self._colour(True)
+        self._isolate()
+
+    def _judge(self):
+        """Bars and list by the chosen measure."""
+        measure, worst = self.measure, self._report["worst_cells"]
+        self._updating = True
+        if measure is MEASURES[0]:
+            # as the mesher has counted them, at no cost
+            rows = [(cell["hex"], cell["scaled_jacobian"], cell["faces"]) for cell in worst]
+            self.histogram.set_counts(self._report["quality"]["histogram"], measure)
+        else:
+            with busy():
+                cells = self.cells()
+                values = cells.values(measure)
+                chosen = cells.worst(measure, _WORST)
+                at = faces_of(self._panel.obj.FemMesh, cells.nodes[chosen, :8])
+            rows = [(index, values[index], faces) for index, faces in zip(chosen.tolist(), at)]
+            self.histogram.set_counts(measure.histogram(values), measure)
+        self.threshold.setValue(measure.value(0.3))
+        self.worst.clearSelection()
+        self.worst.setRowCount(len(rows))
+        for row, (index, value, faces) in enumerate(rows):
+            for column, text in enumerate((str(index + 1), "{:.3f}".format(value), ", ".join(faces) or tr("inside"))):
+                self.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
+        self.worst.resizeColumnsToContents()
+        self._updating = False
+
+    # --- what there is to see --------------------------------------------------------------------------------------------
+
+    def _highlight(self):
+        """Marks the nodes of the cell selected in the list."""
+        row = self.worst.currentRow()
+        if self._updating or row < 0 or not self.worst.selectedItems() or not self._panel.mesh_exists():
+            return
+        cell = int(self.worst.item(row, 0).text())
+        self._panel.obj.ViewObject.HighlightedNodes = list(self._panel.obj.FemMesh.getElementNodes(cell))
+
+    def _zoom(self, item):
+        """Looks closely at a cell of the list, alone."""
+        if not self._panel.mesh_exists():
+            return
+        index = int(self.worst.item(item.row(), 0).text()) - 1
+        with busy():
+            cells = self.cells()
+            chosen = cells.numbers == index + 1
+            self._draw(chosen)
+            zoom(self._panel.obj.Document, shapes.standing(self._panel.obj), cells.corners(chosen)[0])
+
+    def _bar_clicked(self, _bar):
+        self._isolate()
+
+    def _isolate(self, *_):
+        """Shows the cells of the chosen bar, beyond the threshold, on one side of the cut; all of them where none of these is chosen."""
+        if self._updating or not self._panel.mesh_exists():
+            return
+        bar, axis = self.histogram.chosen, self.cut.currentIndex() - 1
+        if bar is None and axis < 0 and not self.below.isChecked():
+            self._end_cells()
+            return
+        with busy():
+            cells = self.cells()
+            chosen = cells.numbers >= 0
+            if bar is not None:
+                chosen &= self.measure.bars(cells.values(self.measure)) == bar
+            if self.below.isChecked():
+                chosen &= self.measure.goodness(cells.values(self.measure)) < self.measure.goodness(self.threshold.value())
+            if axis >= 0:
+                places = cells.corners().mean(axis=1)[:, axis]
+                least, most = places.min(), places.max()
+                chosen &= places <= least + (most - least) * self.cut_place.value() / 100
+            self._draw(chosen)
+
+    def _draw(self, chosen):
+        obj, cells = self._panel.obj, self.cells()
+        if not self._cell_overlay:
+            self._cell_overlay = CellOverlay(obj.Document, shapes.standing(obj), cells)
+            self._hidden = Hidden(obj.ViewObject)
+        self._cell_overlay.show(chosen, self._cell_colours())
+
+    def _cell_colours(self):
+        if not self.colours.isChecked():
+            return None
+        import numpy
+
+        palette = numpy.array([quality_view.colour(bar) for bar in range(BARS)])
+        return palette[self.measure.bars(self.cells().values(self.measure))]
+
+    def _end_cells(self):
+        if self._cell_overlay and self._panel.document_is_open():
+            self._cell_overlay.remove()
+            self._hidden.end()
+        self._cell_overlay = self._hidden = None
+
+    def _colour(self, wanted):
+        """Paints the nodes by the worst of their cells."""
+        if not self._panel.mesh_exists():
+            return
+        view = self._panel.obj.ViewObject
+        if not wanted:
+            view.resetNodeColor()
+        else:
+            with busy():
+                quality_view.paint(view, self.cells(), self.measure)
+        if self._cell_overlay:
+            self._isolate()
+
+    def _show_lost(self, wanted):
+        """Draws the CAD edges that the mesh has no edges on."""
+        if self._lost_overlay and self._panel.document_is_open():
+            self._lost_overlay.remove()
+        self._lost_overlay = None
+        if not wanted or not self._panel.mesh_exists() or not self._panel.part_exists():
+            return
+        obj, captured = self._panel.obj, self._report["cad"]["edges"]
+        shape = shapes.shape_of(self._panel.part, obj)
+        chains = []
+        for name in captured["lost"] + captured["ignored"]:
+            edge = shape.getElement(name)
+            chains.append(edge.discretize(Deflection=max(edge.Length / 200, 1e-6)))
+        self._lost_overlay = overlay.Overlay(obj.Document, shapes.standing(obj))
+        self._lost_overlay.draw(*overlay.lines(chains, _RED, 4))
+
+    def clear(self):
+        """No mark of the mesh is left in the 3D view."""
+        self._updating = True
+        self._end_cells()
+        self._show_lost(False)
+        if self._panel.mesh_exists():
+            view = self._panel.obj.ViewObject
+            if self.worst.selectedItems():
+                view.HighlightedNodes = []
+            if self.colours.isChecked():
+                view.resetNodeColor()
+        self.worst.clearSelection()
+        self.histogram.choose(None)
+        for box in (self.colours, self.below, self.lost):
+            box.setChecked(False)
+        self.cut.setCurrentIndex(0)
+        self._updating = False
+
+
+class busy:
+    """The cursor of a window that is at work, while it lasts."""
+
+    def __enter__(self):
+        QtGui.QApplication.setOverrideCursor(QtCore.Qt.WaitCursor)
+
+    def __exit__(self, *_):
+        QtGui.QApplication.restoreOverrideCursor()
+
+
+def faces_of(mesh, cells):
+    """For each row of corner nodes the names of the CAD faces that a side of this cell is on, by the mesh's groups."""
+    wanted = {tuple(sorted(row)): [] for row in cells.tolist()}
+    of_node = {}
+    for row in wanted:
+        for node in row:
+            of_node.setdefault(node, set()).add(row)
+    for group in mesh.Groups:
+        name = mesh.getGroupName(group)
+        if mesh.getGroupElementType(group) != "Face" or not name.startswith("Face"):
+            continue
+        for quad in mesh.getGroupElements(group):
+            corners = mesh.getElementNodes(quad)[:4]
+            for row in of_node.get(corners[0], ()):
+                if name not in wanted[row] and set(corners) <= set(row):
+                    wanted[row].append(name)
+    return [sorted(wanted[tuple(sorted(row))], key=lambda name: int(name[4:])) for row in cells.tolist()]

@@ -1,0 +1,105 @@
+"""The panel's part that tells of a run: how far it is, in words; what came out, in a line; the mesher's log, folded away."""
+
+import html
+import re
+
+from PySide import QtCore, QtGui
+
+from .folding import Section
+from .words import tr
+
+#: The mesher's stages, in the order of a mesh.
+_STAGES = {
+    "cad": "Reading the part",
+    "tet": "Filling the part with tetrahedra",
+    "label": "Choosing axes of faces",
+    "deform": "Straightening the part into blocks",
+    "blocks": "Finding the blocks",
+    "quantize": "Choosing numbers of cells",
+    "hex": "Making hexahedra",
+    "pad": "Adding layers where faces meet",
+    "fit": "Moving nodes onto the CAD",
+    "fem": "Making elements",
+}
+#: As backend/pipeline/search writes it: "plan 2, 'name', 3 fits done, best: 'name', 4 CAD edges lost, min SJ 0.31" or "..., no mesh yet"
+_PLAN = re.compile(r"plan (\d+), '.*', \d+ fits done, (?:best: '.*', (\d+) CAD edges lost, min SJ (\S+)|no mesh yet)$")
+#: Letters that can be read on a light and on a dark ground.
+_ERROR = {False: "#b00020", True: "#ff8a80"}
+
+
+def is_dark(widget):
+    """Whether letters are brighter than what they stand on."""
+    palette = widget.palette()
+    return palette.color(QtGui.QPalette.Text).lightness() > palette.color(QtGui.QPalette.Base).lightness()
+
+
+class RunSection(QtGui.QWidget):
+    """progress, time, `best` (a button), status, log."""
+
+    def __init__(self):
+        super().__init__()
+        self.progress = QtGui.QProgressBar()
+        self.progress.setRange(0, 100)
+        self.progress.setTextVisible(False)
+        self.progress.setMinimumWidth(40)
+        self.time = QtGui.QLabel("0.0 s")
+        self.best = QtGui.QPushButton(tr("Take the best so far"))
+        self.best.setToolTip(tr("Ends the search for a better mesh"))
+        self.best.setVisible(False)
+        self.status = QtGui.QLabel()
+        self.status.setObjectName("status")
+        self.status.setWordWrap(True)
+        self.status.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        self.log_fold = Section(tr("Log of the mesher"), "log_fold", is_open=False)
+        self.log = QtGui.QPlainTextEdit()
+        self.log.setReadOnly(True)
+        self.log.setMinimumSize(60, 110)
+        self.log_fold.body.addWidget(self.log)
+        row = QtGui.QHBoxLayout()
+        row.addWidget(self.progress)
+        row.addWidget(self.time)
+        layout = QtGui.QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addLayout(row)
+        for widget in (self.status, self.best, self.log_fold):
+            layout.addWidget(widget)
+        self._layout_number, self._found = 0, ""
+
+    def begin(self, words):
+        self.progress.setValue(0)
+        self._layout_number, self._found = 0, ""
+        self.tell(words)
+
+    def tell(self, text, error=False):
+        """The one line for the user."""
+        self.status.setStyleSheet("color: {}".format(_ERROR[is_dark(self.log)]) if error else "")
+        self.status.setText(text)
+
+    def write(self, seconds, text, error=False):
+        """A line of the log."""
+        stamp = "{:.1f}: ".format(seconds) if seconds is not None else ""
+        line = html.escape(stamp + text)
+        self.log.appendHtml('<span style="color:{}">{}</span>'.format(_ERROR[is_dark(self.log)], line) if error else line)
+
+    def show_progress(self, stage, fraction):
+        self.progress.setValue(round(100 * fraction))
+        words = tr(_STAGES[stage]) if stage in _STAGES else stage
+        if self._layout_number > 1 or self._found:
+            words = tr("Trying layout {}: {}").format(self._layout_number, words[0].lower() + words[1:])
+        self.tell(words + " ..." + ("\n" + self._found if self._found else ""))
+
+    def hear(self, line):
+        """A line of the mesher's log: a new layout is tried, and there may be a mesh to take."""
+        match = _PLAN.match(line)
+        if not match:
+            return
+        number, lost, quality = match.groups()
+        self._layout_number = int(number)
+        if lost is not None:
+            captured = tr("all CAD edges") if lost == "0" else tr("all but {} CAD edges").format(lost)
+            self._found = tr("Best so far: valid, {}, worst cell {:.2f}").format(captured, float(quality))
+            self.best.setVisible(True)
+            self.best.setEnabled(True)
+
+    def end(self):
+        self.best.setVisible(False)

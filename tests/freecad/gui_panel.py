@@ -95,7 +95,7 @@ class Narrow(PanelTest):
                 self.assertLessEqual(edge, right + 1, widget.objectName() or type(widget).__name__)
         self.assertGreater(seen, 30)
         for name in ("Ok", "Cancel", "Apply"):
-            button = self.button(name)
+            button = button_of(name)
             self.assertLessEqual(button.mapToGlobal(QtCore.QPoint(button.width(), 0)).x(), right + 12, name)
             self.assertGreaterEqual(button.width(), QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width(), name)
         area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
@@ -105,18 +105,19 @@ class Narrow(PanelTest):
     def area(self, panel):
         return next(widget for widget in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if widget.isAncestorOf(panel.form))
 
-    @staticmethod
-    def button(name):
-        wanted = getattr(QtGui.QDialogButtonBox, name)
-        buttons = [box.button(wanted) for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox)]
-        return next(button for button in buttons if button and button.isVisible())
+
+def button_of(name):
+    """A button of the task panel."""
+    wanted = getattr(QtGui.QDialogButtonBox, name)
+    buttons = [box.button(wanted) for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox)]
+    return next(button for button in buttons if button and button.isVisible())
 
 
 class Wide(PanelTest):
     def test_buttons_have_their_width(self):
         self.open_panel(self.box)
         for name in ("Ok", "Cancel", "Apply"):
-            button = Narrow.button(name)
+            button = button_of(name)
             self.assertGreaterEqual(button.width(), button.sizeHint().width(), name)
         self.press("Cancel")
 

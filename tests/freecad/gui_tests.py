@@ -387,7 +387,7 @@ class InAContainer(GuiTest):
         FreeCADGui.Selection.addSelection(self.document.Name, self.container.Name, self.box.Name + ".Face3")
         process_events(0.3)
         self.assertEqual(asked, [3], "a click as the 3D view tells of it")
-        panel._select(["Face2"])
+        panel.select(["Face2"])
         (selected,) = FreeCADGui.Selection.getSelectionEx()
         self.assertEqual((selected.Object, selected.SubElementNames), (self.box, ("Face2",)))
         self.press("Apply")

@@ -14,7 +14,7 @@ FreeCAD imports this package at start, so it imports nothing heavy.
 import os
 import re
 
-from .api import converge, create_fem_mesh, labels, mesh, options, set_analysis, set_options, solve, update_fem_mesh
+from .api import converge, create_fem_mesh, labels, mesh, options, refine, set_analysis, set_options, set_refinement, solve, update_fem_mesh
 from .errors import Cancelled, InvalidInput, NoMesher, PolycubeError, SolverFailed, StageFailed
 
 __all__ = [
@@ -29,8 +29,10 @@ __all__ = [
     "labels",
     "mesh",
     "options",
+    "refine",
     "set_analysis",
     "set_options",
+    "set_refinement",
     "solve",
     "update_fem_mesh",
 ]

@@ -76,17 +76,26 @@ def _run(what, shape, given, progress, log, cancel):
 
 
 @_recorded
-def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh", progress=None, log=None, cancel=None, **more):
+def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh", progress=None, log=None, cancel=None, only_object=False, **more):
     """Meshes the document object `part` and returns a new FEM mesh object in its document, in one undo step.
 
-    The mesh object joins `analysis` if one is given. Raises like mesh(); the document is then unchanged.
+    The mesh object joins `analysis` if one is given. `only_object`: it has no cells yet, so that refine() can ask for something before update_fem_mesh().
+    Raises like mesh(); the document is then unchanged.
     """
-    from . import objects
+    from . import objects, option_table
 
     _check_object(part)
     _check_analysis(analysis, part)
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
+    if only_object:
+        shapes.check_solid(shape)
+        with transaction(part.Document, "Hexahedral mesh from shape"):
+            obj = objects.make(part.Document, part, name)
+            if analysis:
+                analysis.addObject(obj)
+            option_table.write(obj, given)
+        return obj
     meshed = shapes.signature(shape)
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
     with transaction(part.Document, "Hexahedral mesh from shape"):
@@ -103,14 +112,15 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
 
     `more`: options that are to be others from now on; one that is given its default, as options() has it, goes back to that.
     """
-    from . import objects, option_table
+    from . import objects, option_table, refinements
 
     part = objects.part_of(obj)
     _check_object(part)
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     shape = shapes.shape_of(part, beside=obj)
     meshed = shapes.signature(shape)
-    result = _run("mesh", shape, with_constraints(given, part, objects.analysis_of(obj)), progress, log, cancel)
+    wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
+    result = _run("mesh", shape, wanted, progress, log, cancel)
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
@@ -125,6 +135,36 @@ def set_options(obj, **more):
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     with transaction(obj.Document, "Mesh parameters"):
         option_table.write(obj, given)
+    return obj
+
+
+@_recorded
+def refine(obj, kind, places, value=None):
+    """Asks something of the mesh object at places of its part, by an object below it in the tree; in one undo step. Returns the new object.
+
+    kind, places and value: "size", faces, a length; "divisions", edges, elements; "layers", two faces, elements; "bore", cylindrical faces, elements round
+    each; "keep", faces none of whose edges is ignored; "axis", faces, an axis as "+X". Elements are 6, "3.." (at least), "..4", "2..5". Faces may be numbers.
+    The next update_fem_mesh() obeys it. Raises InvalidInput.
+    """
+    from . import refinements
+
+    _check_mesh(obj)
+    with transaction(obj.Document, "Refinement"):
+        return refinements.make(obj, kind, [place if isinstance(place, str) else "Face{}".format(place) for place in places], value)
+
+
+@_recorded
+def set_refinement(obj, value=None, suppressed=None):
+    """Changes what a refinement asks for, or whether the mesh does without it; in one undo step. Raises InvalidInput."""
+    from . import refinements
+
+    if not refinements.is_refinement(obj):
+        raise InvalidInput("{} is no refinement".format(getattr(obj, "Label", obj)))
+    with transaction(obj.Document, "Refinement"):
+        if value is not None:
+            refinements.set_value(obj, value)
+        if suppressed is not None:
+            obj.Suppressed = bool(suppressed)
     return obj
 
 

@@ -3,7 +3,7 @@
 import FreeCAD
 import FreeCADGui
 
-from . import api, option_table
+from . import api, option_table, refinements
 from .compat import part_of
 
 
@@ -22,9 +22,13 @@ def name(obj):
     """A document object as a macro names it, in whatever document is active when the macro runs; of another document by that one's name."""
     if obj is None:
         return "None"
+    return "{}.getObject({!r})".format(document(obj.Document), obj.Name)
+
+
+def document(one):
+    """A document likewise."""
     active = FreeCAD.ActiveDocument
-    document = "App.ActiveDocument" if active and active.Name == obj.Document.Name else "App.getDocument({!r})".format(obj.Document.Name)
-    return "{}.getObject({!r})".format(document, obj.Name)
+    return "App.ActiveDocument" if active and active.Name == one.Name else "App.getDocument({!r})".format(one.Name)
 
 
 def created(obj, options):
@@ -46,6 +50,23 @@ def set_options(obj, before, now):
 def set_analysis(obj, analysis):
     """A mesh object is that of another analysis now, or of none."""
     record("polycube.set_analysis({}, {})".format(name(obj), name(analysis)), obj)
+
+
+def made_empty(obj):
+    """A mesh object without cells was made of its part."""
+    record("polycube.create_fem_mesh({}, only_object=True)".format(name(part_of(obj))), obj)
+
+
+def refined(obj, mesh):
+    """A refinement of a mesh object was made."""
+    value = refinements.value_of(obj)
+    arguments = [name(mesh), repr(obj.Kind), repr(refinements.places_of(obj))] + ([repr(value)] if value else [])
+    record("polycube.refine({})".format(", ".join(arguments)), obj)
+
+
+def set_refinement(obj, **changes):
+    """A refinement was changed."""
+    record("polycube.set_refinement({}, {})".format(name(obj), ", ".join("{}={!r}".format(*change) for change in changes.items())), obj)
 
 
 def _call(function, first, options, obj):

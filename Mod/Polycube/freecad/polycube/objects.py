@@ -4,9 +4,10 @@ import json
 
 import FreeCAD
 
-from . import compat, fem_mesh, load_sets, option_table, shapes
+from . import compat, fem_mesh, load_sets, option_table, refinements, shapes
 from .compat import part_of, set_part
 from .errors import InvalidInput
+from .stateless import Stateless
 
 EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
 
@@ -59,10 +60,11 @@ def analysis_of(obj):
     return next((parent for parent in obj.InList if parent.isDerivedFrom("Fem::FemAnalysis")), None)
 
 
-def set_mesh(obj, result, options, meshed_shape, mesh=None):
+def set_mesh(obj, result, options, meshed_shape, mesh=None, asked=None):
     """Gives the object its mesh. `meshed_shape`: signature of the shape that was meshed. Call inside a transaction. Returns warnings, one line each.
 
-    `mesh`: what fem_mesh.build() made of the result, where that is done already.
+    `mesh`: what fem_mesh.build() made of the result, where that is done already. `asked`: the options with what the refinements asked for when the mesher
+    was started, where that may be a while ago.
     """
     mesh = mesh or fem_mesh.build(result)
     warnings = list(result.report.get("warnings", []))
@@ -81,7 +83,7 @@ def set_mesh(obj, result, options, meshed_shape, mesh=None):
     obj.MeanScaledJacobian = quality["mean_scaled_jacobian"]
     obj.MeshVolume = result.report["volume"]["mesh"]
     obj.Report = json.dumps(result.report)
-    obj.MeshedOptions = json.dumps(option_table.read(obj), sort_keys=True)
+    obj.MeshedOptions = json.dumps(asked, sort_keys=True) if asked is not None else _options_text(obj)
     obj.MeshState = state(obj)
     obj.purgeTouched()  # it is as it is to be; FreeCAD's mark would hide the icon of the state
     return warnings
@@ -92,10 +94,15 @@ def state(obj):
     if not obj.FemMesh.VolumeCount:
         return EMPTY
     try:
-        same_options = obj.MeshedOptions == json.dumps(option_table.read(obj), sort_keys=True)
+        same_options = obj.MeshedOptions == _options_text(obj)
     except InvalidInput:  # options that cannot be read
         return OUTDATED
     return CURRENT if same_options and shape_is_meshed(obj) else OUTDATED
+
+
+def _options_text(obj):
+    """The object's options and what its refinements ask for, as MeshedOptions keeps them."""
+    return json.dumps(refinements.with_refinements(option_table.read(obj), obj), sort_keys=True)
 
 
 def shape_is_meshed(obj):
@@ -117,20 +124,6 @@ def _grouped_shape(obj):
     return shapes.solid_object(part_of(obj)).Shape
 
 
-class Stateless:
-    """A proxy that keeps nothing of its own in the document: all is in properties."""
-
-    def dumps(self):
-        return None
-
-    def loads(self, state):
-        return None
-
-    # FreeCAD 0.20's names for dumps and loads
-    __getstate__ = dumps
-    __setstate__ = loads
-
-
 class PolycubeMesh(Stateless):
     """Proxy of the mesh object. Recompute never meshes: it marks the mesh as out of date."""
 
@@ -144,6 +137,8 @@ class PolycubeMesh(Stateless):
         if compat.needs_part_property(obj):
             obj.addProperty("App::PropertyLinkGlobal", "Part", "FEM Mesh", "Geometry object, the mesh is made from")
         option_table.add_properties(obj)
+        if not hasattr(obj, "Refinements"):
+            obj.addProperty("App::PropertyLinkListGlobal", "Refinements", "Polycube", "What is asked of the mesh at places of the part")
         if not hasattr(obj, _ELEMENT):
             meaning = "Element that polycube.solve takes: by default C3D20R with C3D20 where hourglassing threatens, and C3D8I of first order"
             obj.addProperty("App::PropertyEnumeration", _ELEMENT, "Polycube", meaning)
@@ -164,7 +159,7 @@ class PolycubeMesh(Stateless):
     def onChanged(self, obj, name):
         if "Restore" in obj.State or not hasattr(obj, "MeshedShape"):
             return
-        if name in ("Part", "Shape") or name in map(option_table.property_name, option_table.document_options()):
+        if name in ("Part", "Shape", "Refinements") or name in map(option_table.property_name, option_table.document_options()):
             self.execute(obj)
 
     def onDocumentRestored(self, obj):

@@ -7,12 +7,13 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, resources, shapes
+from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, refinements, resources, shapes
 from .analysis_box import AnalysisBox
 from .axes_section import AxesSection
 from .compat import print_error, qt_number
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .folding import Section
+from .refine_section import RefineSection
 from .result_section import ResultSection
 from .run import Run
 from .run_section import RunSection
@@ -46,6 +47,7 @@ class MeshPanel:
 
     _running = None  # the one panel that meshes at present: FreeCAD shows one task panel at a time
     _form = None
+    shown_refinement = None  # name of the refinement that the next panel is to show
 
     def __init__(self, part, obj=None, analysis=None):
         self.part, self.obj = part, obj
@@ -54,7 +56,7 @@ class MeshPanel:
         self.started = 0.0
         self._taking = False
         self._filling = True
-        self._meshed_options, self._meshed_shape, self._before = {}, [], {}
+        self._meshed_options, self._asked, self._meshed_shape, self._before = {}, {}, [], {}
         self.options = option_table.read(obj) if obj else {}
         self.analysis_box = AnalysisBox(FreeCAD.getDocument(self.document_name), objects.analysis_of(obj) if obj else None, analysis)
         self.analysis = self.analysis_box.chosen()  # that of the mesh that is made
@@ -83,13 +85,11 @@ class MeshPanel:
         size.body.addWidget(self.size_form)
         size.body.addWidget(form.size_hint)
         self.axes = AxesSection(self, [option for option in options if option["type"] == "frame"])
-        self.refine = Section(tr("Refine"), "refine_section", is_open=False, tooltip=tr("Other sizes and numbers of cells at places of the part"))
-        self.refine_form = fields.OptionForm(places, self.changed)
-        self.refine.body.addWidget(self.refine_form)
+        self.refine = RefineSection(self, places)
         self.advanced = Section(tr("Advanced"), "advanced_section", is_open=False)
         self.advanced_form = fields.OptionForm(advanced, self.changed)
         self.advanced.body.addWidget(self.advanced_form)
-        self._forms = (self.size_form, self.axes.form, self.refine_form, self.advanced_form)
+        self._forms = (self.size_form, self.axes.form, self.refine.form, self.advanced_form)
         head = QtGui.QFormLayout()
         head.addRow(QtGui.QLabel(tr("Part:")), form.part)
         head.addRow(QtGui.QLabel(tr("Analysis:")), self.analysis_box)
@@ -199,20 +199,21 @@ class MeshPanel:
         self.analysis = self.analysis_box.chosen()
         try:
             self._meshed_options = self._parameters()
+            self._asked = refinements.with_refinements(self._meshed_options, self.obj)
             self._before = option_table.read(self.obj) if self.obj else {}
         except InvalidInput as error:
             self.tell(str(error), error=True)
             return
         if not self._may_go_on():
             return
-        options = self._meshed_options
+        options = self._asked
         if self.part_exists():
             options = api.with_constraints(options, self.part, self.analysis)
         self._start("mesh", options, tr("Meshing"))
 
     def _may_go_on(self):
         """Asks where the count of cells or the analysis would be a surprise."""
-        expected = self._prediction(self._meshed_options)
+        expected = self._prediction(self._asked)
         if expected and expected.is_startling():
             question = tr("Local sizes make about {} cells of {}: the grid goes through the whole part. Make the mesh?")
             if not _agreed(question.format(count(round(expected.cells)), count(round(expected.plain)))):
@@ -228,7 +229,7 @@ class MeshPanel:
     def start_labels(self):
         """Computes the labels for the preview."""
         try:
-            self._start("labels", self._parameters(), tr("Labelling"))
+            self._start("labels", refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None), tr("Labelling"))
         except InvalidInput as error:
             self.tell(str(error), error=True)
 
@@ -306,7 +307,7 @@ class MeshPanel:
             text = text[0].upper() + text[1:] + "."
         elif isinstance(error, StageFailed):
             text = tr("Refused: {}.").format(text) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
-            self._select(error.entities)
+            self.select(error.entities)
         self.form.run.tell(text, error=True)
 
     def _take(self, result):
@@ -351,7 +352,7 @@ class MeshPanel:
                 analysis.removeObject(other)
                 other.ViewObject.hide()
             analyses.move(self.obj, analysis)
-            warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh)
+            warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh, self._asked)
         if is_new:
             macro.created(self.obj, self._meshed_options)
         else:
@@ -404,9 +405,26 @@ class MeshPanel:
         """What the mesh will be beside: its object or its analysis, as far as there are any."""
         return next(filter(_exists, (self.obj, self.analysis_box.chosen())), None)
 
+    def make_object(self):
+        """A mesh object without cells, for refinements before the first mesh. Call inside a transaction."""
+        if self.mesh_exists():
+            return
+        self.obj = objects.make(self.part.Document, self.part)
+        analysis = self.analysis_box.chosen()
+        if analysis and not analyses.other_meshes(analysis):
+            analyses.move(self.obj, analysis)
+        macro.made_empty(self.obj)
+
     def show_part(self):
         for obj in (self.part, shapes.solid_object(self.part)):
             obj.ViewObject.show()
+
+    def show_part_alone(self):
+        """For clicks on the part: the mesh stands where it does."""
+        if self.part_exists():
+            self.show_part()
+        if self.mesh_exists():
+            self.obj.ViewObject.hide()
 
     def show_mesh(self):
         """The mesh in place of the part."""
@@ -414,8 +432,8 @@ class MeshPanel:
         if self.part_exists():
             shapes.solid_object(self.part).ViewObject.hide()  # not its container, the mesh may be in that too
 
-    def _select(self, entities):
-        """Shows the CAD entities at fault in the 3D view."""
+    def select(self, entities):
+        """Shows CAD entities in the 3D view."""
         if entities and self.part_exists():
             self.show_part()
             FreeCADGui.Selection.clearSelection()
@@ -449,7 +467,9 @@ class MeshPanel:
         for form in self._forms:
             form.set_values(self.options)
         self.axes.set_labels(self.options.get("labels", {}))
-        self.refine.set_open(bool(self.refine_form.values()))
+        self.refine.set_open(bool(self.refine.form.values() or self.refine.refinements()))
+        chosen, MeshPanel.shown_refinement = MeshPanel.shown_refinement, None
+        self.refine.show_refinements(chosen and self.obj and self.obj.Document.getObject(chosen))
 
     def _show_hint(self):
         """What automatic is, and how many cells there will be."""
@@ -459,7 +479,7 @@ class MeshPanel:
                 return
             automatic = FreeCAD.Units.Quantity(prediction.size_of(shape, {}), FreeCAD.Units.Length).UserString
             lines = [tr("0 is automatic: {}").format(automatic)]
-            expected = self._prediction(self._parameters())
+            expected = self._prediction(refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None))
         except InvalidInput:  # Apply tells
             return
         if expected:

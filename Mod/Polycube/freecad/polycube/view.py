@@ -25,6 +25,9 @@ class PolycubeMeshView(objects.Stateless):
         if name == "MeshState":
             obj.ViewObject.signalChangeIcon()
 
+    def claimChildren(self):
+        return list(getattr(self.Object, "Refinements", ()))
+
     def doubleClicked(self, view):
         import FemGui
 

@@ -1,0 +1,223 @@
+"""Refinements: objects in the tree below a mesh, each of which asks something of the mesh at places of its part."""
+
+import FreeCAD
+
+from . import compat, fem_mesh, option_table, shapes
+from .errors import InvalidInput
+from .stateless import Stateless
+
+_AXES = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
+
+
+class Kind:
+    """What a refinement asks for. `option`: the mesher's, which it adds to; `takes`: Face or Edge; `count`: how many places it needs, None for any."""
+
+    def __init__(self, name, title, meaning, option, takes, value, count=None):
+        self.name, self.title, self.meaning, self.option, self.takes, self.value, self.count = name, title, meaning, option, takes, value, count
+
+
+#: value: type, name and default of the property that holds it, and what it means; None where there is none.
+_ELEMENTS = ("App::PropertyString", "Elements", "4", "Number of elements: 6 exactly, 3.. at least, ..4 at most, 2..5")
+KINDS = {
+    kind.name: kind
+    for kind in (
+        Kind("size", "Local size", "Another edge length at faces", "sizes", "Face", ("App::PropertyLength", "Size", 0.0, "Edge length")),
+        Kind("divisions", "Divisions", "Number of elements along edges", "divisions", "Edge", _ELEMENTS),
+        Kind("layers", "Layers", "Number of elements between two opposite faces", "divisions", "Face", _ELEMENTS, 2),
+        Kind("bore", "Elements round a bore", "Number of elements round cylindrical faces", "divisions", "Face", _ELEMENTS),
+        Kind("keep", "Faces to keep", "Faces none of whose edges is ignored", "keep_faces", "Face", None),
+        Kind("axis", "Axis of faces", "The axis that faces take in the blocks", "labels", "Face", ("App::PropertyEnumeration", "Axis", _AXES, "Axis")),
+    )
+}
+
+
+def make(mesh, kind, places, value=None):
+    """A new refinement of a mesh object. places: names such as Face3 on the mesh's part. Call inside a transaction. Raises InvalidInput."""
+    if kind not in KINDS:
+        raise InvalidInput("there is no refinement '{}'; there are {}".format(kind, ", ".join(KINDS)))
+    solid = shapes.solid_object(compat.part_of(mesh))
+    check(solid, KINDS[kind], list(places), value)
+    obj = mesh.Document.addObject("Fem::FeaturePython", "Refinement")
+    Refinement(obj, kind)
+    obj.Label = KINDS[kind].title
+    obj.References = [(solid, list(places))]
+    if value is not None:
+        set_value(obj, value)
+    if FreeCAD.GuiUp:
+        from .refinement_view import RefinementView
+
+        RefinementView(obj.ViewObject)
+    mesh.Refinements = list(mesh.Refinements) + [obj]
+    obj.Proxy.execute(obj)
+    return obj
+
+
+def is_refinement(obj):
+    """Whether it is one of ours."""
+    return getattr(getattr(obj, "Proxy", None), "Type", None) == Refinement.Type
+
+
+def kind_of(obj):
+    return KINDS[obj.Kind]
+
+
+def mesh_of(obj):
+    """The mesh object that a refinement belongs to, or None."""
+    return next((mesh for mesh in obj.InList if obj in getattr(mesh, "Refinements", ())), None)
+
+
+def places_of(obj):
+    """Names of the faces or edges."""
+    return [name for _, names in obj.References for name in ([names] if isinstance(names, str) else names) if name]
+
+
+def value_of(obj):
+    """The value as text; empty where the kind has none."""
+    value = kind_of(obj).value
+    if not value:
+        return ""
+    held = getattr(obj, value[1])
+    return held.UserString if hasattr(held, "UserString") else str(held)
+
+
+def set_value(obj, value):
+    """Sets what the refinement asks for: a length, a number of elements, an axis, as text or plain. Raises InvalidInput."""
+    kind = kind_of(obj)
+    checked = _checked(kind, value)
+    if checked is not None:
+        setattr(obj, kind.value[1], checked)
+
+
+def _checked(kind, value):
+    if not kind.value:
+        return None
+    if kind.option == "sizes":
+        try:
+            size = FreeCAD.Units.Quantity(value) if isinstance(value, str) else value
+        except (ValueError, SyntaxError, OSError):
+            raise InvalidInput("{}: '{}' is not a length".format(kind.title, value)) from None
+        size = option_table.plain({"size": size})["size"]
+        if not size > 0:
+            raise InvalidInput("{}: the size must be greater than 0".format(kind.title))
+        return size
+    if kind.option == "labels":
+        if value not in _AXES:
+            raise InvalidInput("{}: '{}' is not one of {}".format(kind.title, value, ", ".join(_AXES)))
+        return value
+    text = str(value).replace(" ", "")
+    low, dots, high = text.partition("..")
+    if not all(part.isdigit() and int(part) > 0 for part in (low, high) if part) or not (low or high) or (not dots and not low):
+        raise InvalidInput("{}: '{}' is not a number of elements: 6, 3.., ..4 or 2..5".format(kind.title, value))
+    return text
+
+
+def check(solid, kind, places, value=None):
+    """Raises InvalidInput where the solid has not these places, or the kind cannot be there."""
+    if not places:
+        raise InvalidInput("{}: no {} is chosen".format(kind.title, kind.takes.lower()))
+    for name in places:
+        if name.rstrip("0123456789") != kind.takes:
+            raise InvalidInput("{}: {} is no {}".format(kind.title, name, kind.takes.lower()))
+        if not fem_mesh.exists(solid.Shape, name):
+            raise InvalidInput("{}: {} has no {} any more".format(kind.title, solid.Label, name))
+        if kind.name == "bore" and not _circle(solid.Shape, name):
+            raise InvalidInput("{}: {} has no full circle".format(kind.title, name))
+    if kind.count and len(places) != kind.count:
+        raise InvalidInput("{}: {} {}s are needed, not {}".format(kind.title, kind.count, kind.takes.lower(), len(places)))
+    if value is not None:
+        _checked(kind, value)
+
+
+def _circle(shape, face):
+    """The name of a closed circular edge of a face, or None."""
+    for edge in shape.getElement(face).Edges:
+        if len(edge.Vertexes) == 1 and edge.Curve.TypeId == "Part::GeomCircle":
+            return next("Edge{}".format(number) for number, one in enumerate(shape.Edges, 1) if one.isSame(edge))
+    return None
+
+
+def fault(obj):
+    """What is wrong with a refinement, in a line; empty if nothing is."""
+    mesh = mesh_of(obj)
+    if mesh is None:
+        return "it belongs to no mesh"
+    part = compat.part_of(mesh)
+    if part is None:
+        return "the mesh has no part"
+    try:
+        solid = shapes.solid_object(part)
+        if any(owner != solid for owner, _ in obj.References):
+            return "it refers to another part than {}".format(solid.Label)
+        kind = kind_of(obj)
+        check(solid, kind, places_of(obj), getattr(obj, kind.value[1]) if kind.value else None)
+    except InvalidInput as error:
+        return str(error).split(": ", 1)[-1]
+    return ""
+
+
+def with_refinements(options, mesh):
+    """The options, with what the refinements of a mesh object ask for besides. InvalidInput names a faulty one."""
+    asked = [obj for obj in getattr(mesh, "Refinements", ()) if obj is not None and is_refinement(obj) and not obj.Suppressed]
+    if not asked:
+        return options
+    merged = dict(options)
+    for obj in asked:
+        wrong = fault(obj)
+        if wrong:
+            raise InvalidInput("{}: {}".format(obj.Label, wrong))
+        kind = kind_of(obj)
+        option = next(one for one in option_table.table() if one["name"] == kind.option)
+        text = option_table.as_text(option, merged.get(kind.option) or "")
+        merged[kind.option] = ",".join(filter(None, [text, *_items(obj, kind)]))
+    labels = merged.get("labels")
+    if isinstance(labels, str):
+        merged["labels"] = option_table.from_text({"type": "labels"}, labels)
+    return merged
+
+
+def _items(obj, kind):
+    """The refinement as items of its option's text."""
+    places, value = places_of(obj), getattr(obj, kind.value[1]) if kind.value else None
+    if kind.name == "layers":
+        return ["-".join(places) + "=" + value]
+    if kind.name == "bore":
+        shape = obj.References[0][0].Shape
+        return sorted({"{}={}".format(_circle(shape, name), value) for name in places})
+    if kind.name == "keep":
+        return places
+    plain = repr(float(value.Value)) if hasattr(value, "Value") else value
+    return ["{}={}".format(name, plain) for name in places]
+
+
+class Refinement(Stateless):
+    """Proxy of a refinement object."""
+
+    Type = "Polycube::Refinement"
+
+    def __init__(self, obj, kind):
+        obj.Proxy = self
+        obj.addProperty("App::PropertyString", "Kind", "Refinement", "What the refinement asks for")
+        obj.Kind = kind
+        obj.setEditorMode("Kind", 1)
+        obj.addProperty("App::PropertyLinkSubListGlobal", "References", "Refinement", KINDS[kind].meaning)
+        obj.addProperty("App::PropertyBool", "Suppressed", "Refinement", "Whether the mesh does without it")
+        obj.addProperty("App::PropertyString", "Fault", "Refinement", "What is wrong with it")
+        obj.setEditorMode("Fault", 1)
+        if KINDS[kind].value:
+            type_name, name, default, meaning = KINDS[kind].value
+            obj.addProperty(type_name, name, "Refinement", meaning)
+            setattr(obj, name, default)
+
+    def execute(self, obj):
+        wrong = fault(obj)
+        if obj.Fault != wrong:
+            obj.Fault = wrong
+            obj.Label2 = wrong  # FreeCAD's tree shows it
+
+    def onChanged(self, obj, name):
+        if "Restore" in obj.State or name not in ("References", "Suppressed", "Size", "Elements", "Axis"):
+            return
+        mesh = mesh_of(obj)
+        if mesh is not None:
+            self.execute(obj)
+            mesh.Proxy.execute(mesh)

@@ -1,0 +1,181 @@
+"""Refinements in the window: made from the selection, changed in the panel and in the tree, recorded in macros; run by gui.sh."""
+
+from unittest import mock
+
+import FreeCAD
+import FreeCADGui
+import gui_panel
+from gui_support import picture, process_events
+from PySide import QtCore
+
+from freecad.polycube import macro, objects, option_table, refinements
+
+
+class RefineTest(gui_panel.PanelTest):
+    def setUp(self):
+        super().setUp()
+        self.lines = []
+        original = macro.record
+
+        def record(line, obj):
+            self.lines.append(line)
+            original(line, obj)
+
+        patch = mock.patch.object(macro, "record", record)
+        patch.start()
+        self.addCleanup(patch.stop)
+
+    def choose(self, *names):
+        """As clicks in the 3D view do."""
+        FreeCADGui.Selection.clearSelection()
+        for name in names:
+            FreeCADGui.Selection.addSelection(self.name, self.box.Name, name)
+        process_events(0.1)
+
+    def offered(self, panel):
+        """Kinds that can be added now."""
+        menu = panel.refine.add_button.menu()
+        menu.aboutToShow.emit()
+        return {action.objectName() for action in menu.actions() if action.isEnabled()}
+
+    def add(self, panel, kind):
+        menu = panel.refine.add_button.menu()
+        menu.aboutToShow.emit()
+        next(action for action in menu.actions() if action.objectName() == kind).trigger()
+        process_events(0.1)
+        return panel.obj.Refinements[-1]
+
+
+class FromTheSelection(RefineTest):
+    def test_kinds_follow_the_selection(self):
+        panel = self.open_panel(self.box)
+        for names, kinds in (
+            ((), set()),
+            (("Face1",), {"size", "bore", "keep", "axis"}),
+            (("Face1", "Face2"), {"size", "bore", "keep", "axis", "layers"}),
+            (("Edge1", "Edge2"), {"divisions"}),
+            (("Face1", "Edge2"), {"size", "bore", "keep", "axis", "divisions"}),
+            (("Vertex1",), set()),
+        ):
+            with self.subTest(names=names):
+                self.choose(*names)
+                self.assertEqual(self.offered(panel), kinds)
+        self.press("Cancel")
+
+    def test_before_the_first_mesh_and_in_it(self):
+        panel = self.open_panel(self.box)
+        panel.field("size").value = 10.0
+        self.choose("Face1", "Face2")
+        layers = self.add(panel, "layers")
+        self.assertEqual(panel.obj.MeshState, objects.EMPTY)
+        self.assertEqual(list(self.document.UndoNames), ["Refinement"])
+        self.assertTrue(panel.refine.is_open())
+        self.choose("Edge1")
+        self.add(panel, "divisions")
+        self.choose("Face1")
+        size = self.add(panel, "size")
+        self.assertEqual(size.Size.Value, 5)
+        table = panel.refine.table
+        self.assertEqual([table.item(row, 1).text() for row in range(3)], ["Face1, Face2", "Edge1", "Face1"])
+        table.item(0, 2).setText("7")
+        self.assertEqual(layers.Elements, "7")
+        table.item(1, 2).setText("none")
+        self.assertIn("not a number of elements", panel.form.status.text())
+        self.assertEqual(table.item(1, 2).text(), "4")
+        table.item(2, 0).setCheckState(QtCore.Qt.Unchecked)
+        self.assertTrue(size.Suppressed)
+        picture("refinements")
+        self.apply(panel)
+        self.assertEqual(panel.obj.MeshState, objects.CURRENT)
+        mesh = panel.obj.FemMesh
+        (edge,) = [group for group in mesh.Groups if mesh.getGroupName(group) == "Edge1"]
+        self.assertEqual(len(mesh.getGroupElements(edge)), 4)
+        self.assertEqual(panel.obj.Hexahedra % 7, 0)
+        table.selectRow(2)
+        panel.refine.remove_button.click()
+        self.assertEqual(panel.obj.Refinements, panel.refine.refinements())
+        self.assertEqual(len(panel.obj.Refinements), 2)
+        self.press("Ok")
+        self.assertIn("Refinement", self.document.UndoNames)
+
+    def test_the_tree_has_them_below_the_mesh(self):
+        panel = self.meshed()
+        self.choose("Face1")
+        refinement = self.add(panel, "size")
+        self.press("Ok")
+        self.assertEqual(panel.obj.ViewObject.Proxy.claimChildren(), [refinement])
+        again = self.caught(lambda: refinement.ViewObject.Proxy.doubleClicked(refinement.ViewObject))
+        self.assertIs(again.obj, panel.obj)
+        self.assertEqual(again.refine.table.currentRow(), 0)
+        self.press("Cancel")
+
+    def test_icons_tell_what_is_off_and_what_is_faulty(self):
+        panel = self.meshed()
+        self.choose("Face1")
+        refinement = self.add(panel, "axis")
+        self.press("Ok")
+        icon = refinement.ViewObject.Proxy.getIcon
+        seen = {icon()}
+        refinement.Suppressed = True
+        seen.add(icon())
+        refinement.References = [(self.box, ["Face9"])]
+        seen.add(icon())
+        self.assertEqual(len(seen), 3, seen)
+
+    def test_a_faulty_one_is_told_at_apply(self):
+        panel = self.meshed()
+        self.choose("Face1")
+        refinement = self.add(panel, "keep")
+        refinement.References = [(self.box, ["Face9"])]
+        self.press("Apply")
+        self.assertIsNone(panel.process)
+        self.assertEqual(panel.form.status.text(), "Faces to keep: Block has no Face9 any more")
+        self.press("Ok")
+
+
+class AsText(RefineTest):
+    def test_text_becomes_objects(self):
+        panel = self.meshed()
+        panel.field("sizes").value = "Face3=0.5,X=2"
+        panel.field("divisions").value = "Edge4=6,Face1-Face2=3.."
+        panel.field("keep_faces").value = "Face5"
+        panel.changed()
+        asked = panel._parameters()
+        self.document.clearUndos()
+        panel.refine.as_objects.click()
+        self.assertEqual(list(self.document.UndoNames), ["Refinements of text"])
+        self.assertEqual(panel._parameters(), {"size": 10.0, "sizes": "X=2"})
+        merged = refinements.with_refinements(panel._parameters(), panel.obj)
+        self.assertEqual(sorted(merged.pop("sizes").split(",")), ["Face3=0.5", "X=2"])
+        asked.pop("sizes")
+        self.assertEqual(merged, asked)
+        self.press("Ok")
+        self.assertEqual(option_table.read(panel.obj), {"size": 10.0, "sizes": "X=2"})
+
+
+class Recorded(RefineTest):
+    def test_a_session_replays_to_the_same_mesh(self):
+        panel = self.open_panel(self.box)
+        panel.field("size").value = 10.0
+        self.choose("Face1", "Face2")
+        self.add(panel, "layers")
+        panel.refine.table.item(0, 2).setText("5")
+        self.choose("Edge1")
+        self.add(panel, "divisions")
+        panel.refine.table.item(1, 0).setCheckState(QtCore.Qt.Unchecked)
+        self.apply(panel)
+        self.press("Ok")
+        lines = list(self.lines)
+        document = FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
+        box = document.addObject("Part::Box", "Block")
+        box.Length, box.Width, box.Height = 60, 40, 20
+        document.recompute()
+        FreeCAD.setActiveDocument(document.Name)
+        exec("\n".join(lines), {"App": FreeCAD, "Gui": FreeCADGui})
+        FreeCAD.setActiveDocument(self.name)
+        (made,) = [obj for obj in document.Objects if objects.is_polycube(obj)]
+        self.assertEqual(made.MeshState, objects.CURRENT)
+        self.assertEqual(made.MeshedOptions, panel.obj.MeshedOptions)
+        points = [{number: tuple(point) for number, point in obj.FemMesh.Nodes.items()} for obj in (made, panel.obj)]
+        self.assertEqual(points[0], points[1])

@@ -29,11 +29,22 @@ std::optional<int> entity(std::string_view text, std::string_view kind) {
   return id && *id > 0 ? id : std::nullopt;
 }
 
+/// Throws InvalidInput for Face3=0,5: a comma ends an item.
+void check_point(const std::string& flag, const std::string& dense) {
+  const auto digit = [&](std::size_t i) { return i < dense.size() && dense[i] >= '0' && dense[i] <= '9'; };
+  for (std::size_t comma = dense.find(','); comma != std::string::npos; comma = dense.find(',', comma + 1)) {
+    if (comma == 0 || !digit(comma - 1) || !digit(comma + 1)) continue;
+    const std::size_t start = dense.rfind('=', comma) + 1, end = std::min(dense.find(',', comma + 1), dense.size());
+    throw InvalidInput(flag + ": '" + dense.substr(start, end - start) + "' has a comma where a point is wanted, as in 0.5");
+  }
+}
+
 /// Calls read(left of '=', right of '=') for every item; false refuses it.
 template <class Read>
 void for_items(const std::string& flag, const std::string& text, const char* form, const Read& read) {
   std::string dense = text;
   std::erase(dense, ' ');
+  check_point(flag, dense);
   std::istringstream items(dense);
   for (std::string item; std::getline(items, item, ',');) {
     const auto equals = item.find('=');

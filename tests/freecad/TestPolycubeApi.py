@@ -202,6 +202,22 @@ class Options(unittest.TestCase):
                         self.plain(**{name: value})
                     self.assertRegex(str(caught.exception), "^" + name + " is not [^\n]+$")
 
+    def test_text_with_a_unit(self):
+        plain = self.plain(size="0.5 cm", time_limit="2 min", sizes={"Face3": "500 um"})
+        self.assertEqual(plain, {"size": 5, "time_limit": 120, "sizes": {"Face3": 0.5}})
+        for option, value, message in (
+            ("size", "5 kg", "size: 5.0 kg is not a length"), ("hexes", "5 mm", "hexes is not a number"), ("size", "5 mmm", "size is not a number"),
+        ):
+            with self.subTest(value=value), self.assertRaises(polycube.InvalidInput) as caught:
+                self.plain(**{option: value})
+            self.assertEqual(str(caught.exception), message)
+
+    def test_a_wrong_name_is_told_the_right_one(self):
+        for wrong, right in (("min_layer", "min_layers"), ("hexas", "hexes"), ("feature_angel", "feature_angle")):
+            with self.assertRaises(polycube.InvalidInput) as caught:
+                self.plain(**{wrong: 1})
+            self.assertIn("did you mean '{}'?".format(right), str(caught.exception))
+
     def test_numbers_as_text(self):
         for option in polycube.options():
             if option["type"] in ("double", "int"):
@@ -496,6 +512,9 @@ class FemMeshObject(DocumentTest):
         self.assertEqual(set(cells.node_numbers), set(obj.FemMesh.Nodes))
         self.assertAlmostEqual(cells.node_goodness(measures.MEASURES[0]).min(), obj.MinScaledJacobian, delta=1e-6)
         result = polycube.mesh(part, size=5)
+        same = measures.Cells.of_result(result)
+        for name in ("numbers", "node_numbers", "nodes", "points"):
+            numpy.testing.assert_array_equal(getattr(same, name), getattr(cells, name), name)
         for measure in measures.MEASURES:
             with self.subTest(measure=measure.name):
                 values = cells.values(measure)

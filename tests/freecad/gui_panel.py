@@ -1,6 +1,7 @@
 """The panel as its users meet it: a narrow dock, undo, macros, analyses, questions, marks; run by gui.sh."""
 
 import contextlib
+import json
 import os
 import tempfile
 from unittest import mock
@@ -14,7 +15,7 @@ from gui_support import GuiTest, mouse, picture, process_events, wait_until
 from PySide import QtCore, QtGui
 
 from freecad import polycube
-from freecad.polycube import commands, fields, init_gui, macro, measures, objects, option_table, task_panel, words
+from freecad.polycube import commands, fields, init_gui, macro, measures, objects, option_table, preferences, task_panel, words
 from freecad.polycube.histogram import Histogram
 from freecad.polycube.run_section import RunSection
 
@@ -477,6 +478,53 @@ class Result(PanelTest):
         self.press("Ok")
         self.assertTrue(panel.obj.ViewObject.isVisible())
         self.assertFalse(self.box.ViewObject.isVisible())
+
+
+class Preferences(PanelTest):
+    """The page writes what the panel begins with and what jobs are run by."""
+
+    def setUp(self):
+        super().setUp()
+        self.group = FreeCAD.ParamGet(preferences.GROUP)
+        self.addCleanup(lambda: [self.group.RemInt(name) for name in ("Threads", "ElementOrder", "Effort")] + [self.group.RemString("TemporaryFolder")])
+
+    def test_the_page(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+
+        def fill():
+            dialog = QtGui.QApplication.activeModalWidget()
+            dialog.findChild(QtGui.QSpinBox, "Threads").setValue(1)
+            dialog.findChild(QtGui.QComboBox, "ElementOrder").setCurrentIndex(0)
+            dialog.findChild(QtGui.QComboBox, "Effort").setCurrentIndex(2)
+            dialog.findChild(QtGui.QWidget, "TemporaryFolder").findChild(QtGui.QLineEdit).setText(folder)
+            picture("preferences-all")
+            dialog.accept()
+
+        QtCore.QTimer.singleShot(1000, fill)
+        FreeCADGui.showPreferences("Polycube", 0)
+        process_events()
+        self.assertEqual((preferences.threads(), preferences.folder()), (1, folder))
+        panel = self.open_panel(self.box)
+        self.assertEqual((panel.field("order").value, panel.field("effort").value), (1, "thorough"))
+        panel.field("size").value = 0.5
+        self.press("Apply")
+        self.assertEqual(os.path.dirname(panel.job.folder), folder)
+        with open(os.path.join(panel.job.folder, "options.json"), encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["threads"], 1)
+        self.press("Cancel")
+        self.assertTrue(wait_until(lambda: not panel.process, 20))
+        self.assertEqual(os.listdir(folder), [])
+        self.press("Cancel")
+
+    def test_a_folder_that_is_none(self):
+        self.group.SetString("TemporaryFolder", "/nowhere/at/all")
+        panel = self.open_panel(self.box)
+        self.press("Apply")
+        self.assertIsNone(panel.process)
+        self.assertIn("names no folder", panel.form.status.text())
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.mesh(self.box.Shape)
+        self.press("Cancel")
 
 
 class Best(PanelTest):

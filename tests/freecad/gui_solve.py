@@ -61,6 +61,17 @@ class Solve(GuiTest):
         self.assertEqual(len(self.results()), 1)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
+    def test_an_analysis_that_was_made_after_the_mesh(self):
+        mesh = self.box.Document.PolycubeMesh
+        polycube.set_analysis(mesh, None)
+        self.assertNotIn(mesh, self.analysis.Group)
+        with mock.patch.object(QtGui.QMessageBox, "critical") as told, mock.patch.object(QtGui.QMessageBox, "information"):
+            FreeCADGui.runCommand(commands.Solve.Name)
+        self.assertIn(mesh, self.analysis.Group)
+        if ccx.find():
+            told.assert_not_called()
+            self.assertEqual(len(self.results()), 1)
+
     def test_cancel(self):
         program = os.path.join(tempfile.gettempdir(), "polycube-sleeper-{}".format(os.getpid()))
         with open(program, "w", encoding="ascii") as file:

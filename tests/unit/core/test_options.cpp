@@ -125,6 +125,7 @@ TEST(Options, RefusesBadDivisionsAndSizes) {
     EXPECT_THAT(complaint({{"divisions", bad}}), HasSubstr("--divisions")) << bad;
   for (const char* bad : {"Face1", "Face0=1", "Edge1=1", "W=1", "X=0", "X=-1", "X=nan", "X=1,X=2", "X=1mm"})
     EXPECT_THAT(complaint({{"sizes", bad}}), HasSubstr("--sizes")) << bad;
+  for (const char* comma : {"Face3=0,5", "X=2,Face3=1,25", "Face3=0,5,X=2"}) EXPECT_THAT(complaint({{"sizes", comma}}), HasSubstr("has a comma")) << comma;
   EXPECT_THAT(complaint({{"min_layers", "0"}}), HasSubstr("--min-layers"));
 }
 

@@ -4,7 +4,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import analyses, macro, objects, resources, shapes
+from . import analyses, api, macro, objects, resources, shapes
 from .errors import Cancelled, InvalidInput, PolycubeError
 
 
@@ -69,6 +69,8 @@ class Solve:
         from . import solver
 
         analysis = analyses.active(FreeCAD.ActiveDocument)
+        macro.begin()
+        _give_mesh(analysis)
         title = "Solve with CalculiX"
         progress = QtGui.QProgressDialog(title, "Cancel", 0, 0, FreeCADGui.getMainWindow())
         progress.setWindowModality(QtCore.Qt.WindowModal)
@@ -90,6 +92,14 @@ class Solve:
             progress.close()
         if solution.notes:
             QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
+
+
+def _give_mesh(analysis):
+    """An analysis that was made after the mesh, and has none, gets it: the one mesh of ours that is in no analysis."""
+    free = [obj for obj in analysis.Document.Objects if objects.is_polycube(obj) and objects.analysis_of(obj) is None]
+    if not analyses.other_meshes(analysis) and len(free) == 1:
+        api.set_analysis(free[0], analysis)
+        macro.set_analysis(free[0], analysis)
 
 
 def register():

@@ -16,7 +16,7 @@ import tempfile
 import threading
 import time
 
-from . import engine, result
+from . import engine, preferences, result
 from .errors import Cancelled, InvalidInput, StageFailed
 
 # From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
@@ -34,7 +34,8 @@ class Job:
         self.what = what
         self._limit = options.get("time_limit")
         self._mesher = engine.find()
-        self.folder = tempfile.mkdtemp(prefix="polycube-job-")
+        self.folder = tempfile.mkdtemp(prefix="polycube-job-", dir=preferences.folder())
+        options = {**options, "threads": options.get("threads") or preferences.threads()}
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
                 file.write(shape.exportBrepToString())

@@ -1,7 +1,9 @@
 """Options as scripts give them and as FreeCAD properties, made from the engine's table."""
 
 import copy
+import difflib
 import math
+import re
 from numbers import Integral, Real
 
 import FreeCAD
@@ -16,6 +18,8 @@ _NOT_IN_FREECAD = {"element_type"}
 _ORDERS = ["1st", "2nd"]
 #: Types of options that may be given as text and are numbers.
 _NUMBERS = ("double", "int", "bool")
+#: A number and a unit: 5 mm, 0.5cm, 2e-3 m
+_WITH_UNIT = r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*[A-Za-z\u00b5\u00b0]+\s*"
 _TRUTHS = {"true": True, "false": False}
 #: FreeCAD 0.20 has no property for times.
 _UNITS = {"mm": "App::PropertyLength", "degrees": "App::PropertyAngle"}
@@ -49,7 +53,9 @@ def plain(options):
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in known:
-            raise InvalidInput("unknown option '{}'; options are {}".format(name, ", ".join(known)))
+            near = difflib.get_close_matches(name, known, 1)
+            meant = "; did you mean '{}'?".format(near[0]) if near else "; options are " + ", ".join(known)
+            raise InvalidInput("unknown option '{}'{}".format(name, meant))
     return {name: _plain(known[name], value) for name, value in given.items()}
 
 
@@ -119,11 +125,26 @@ def _number(option, value):
             raise TypeError
         return bool(value)
     if isinstance(value, str):
-        value = float(value)
+        value = _from_words(option, value)
+        if isinstance(value, FreeCAD.Units.Quantity):
+            return _number(option, value)
     if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise TypeError
     whole = isinstance(value, Integral) or (option["type"] != "double" and float(value).is_integer())
     return int(value) if whole else float(value)
+
+
+def _from_words(option, text):
+    """A number of text, or a quantity of a number with a unit where the option has one, as "5 mm". ValueError for what is neither."""
+    try:
+        return float(text)
+    except ValueError:
+        if not option["unit"] or not re.fullmatch(_WITH_UNIT, text):
+            raise
+    try:
+        return FreeCAD.Units.Quantity(text)
+    except Exception:  # of its parser, whose kind depends on the version
+        raise ValueError(text) from None
 
 
 def without_defaults(options):

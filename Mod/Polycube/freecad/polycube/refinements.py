@@ -93,10 +93,9 @@ def _checked(kind, value):
         return None
     if kind.option == "sizes":
         try:
-            size = FreeCAD.Units.Quantity(value) if isinstance(value, str) else value
-        except (ValueError, SyntaxError, OSError):
+            size = option_table.plain({"size": value})["size"]
+        except InvalidInput:
             raise InvalidInput("{}: '{}' is not a length".format(kind.title, value)) from None
-        size = option_table.plain({"size": size})["size"]
         if not size > 0:
             raise InvalidInput("{}: the size must be greater than 0".format(kind.title))
         return size

@@ -91,11 +91,13 @@ class ResultSection(Section):
 
     # --- what there is ---------------------------------------------------------------------------------------------------
 
-    def show_mesh(self):
-        """The numbers of the mesh as it is now; all marks of an earlier one go."""
+    def show_mesh(self, result=None):
+        """The numbers of the mesh as it is now; all marks of an earlier one go. `result`: the MeshResult that it was made of, where that is at hand."""
         obj = self._panel.obj
         if not obj or not obj.Report:
             return
+        if result:
+            self._cells, self._cells_of = Cells.of_result(result), obj.Report
         self.clear()
         report = json.loads(obj.Report)
         self._report = report

@@ -7,7 +7,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, refinements, resources, shapes
+from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, preferences, refinements, resources, shapes
 from .analysis_box import AnalysisBox
 from .axes_section import AxesSection
 from .compat import print_error, qt_number
@@ -57,7 +57,7 @@ class MeshPanel:
         self._taking = False
         self._filling = True
         self._meshed_options, self._asked, self._meshed_shape, self._before = {}, {}, [], {}
-        self.options = option_table.read(obj) if obj else {}
+        self.options = option_table.read(obj) if obj else preferences.panel_defaults()
         self.analysis_box = AnalysisBox(FreeCAD.getDocument(self.document_name), objects.analysis_of(obj) if obj else None, analysis)
         self.analysis = self.analysis_box.chosen()  # that of the mesh that is made
         self.form = self._make_form()
@@ -324,7 +324,7 @@ class MeshPanel:
             self.result.clear()
             warnings = self._put(result, mesh)
             self.show_mesh()
-            self.result.show_mesh()
+            self.result.show_mesh(result)
             self.result.set_open(True)
         finally:
             QtGui.QApplication.restoreOverrideCursor()

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numbers>
 #include <sstream>
 #include <string_view>
@@ -15,7 +16,10 @@ namespace polycube {
 namespace {
 
 constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-constexpr double kSizesPerDiagonal = 30;
+// The longest edge where no size is given, and the size that cells have where nothing asks for smaller ones.
+constexpr double kSizesPerDiagonal = 15;
+// Through a wall that bends: a quadratic element is linear in strain, two show where it turns; three linear ones do as well with C3D8I.
+constexpr int kLayersOfSecondOrder = 2, kLayersOfFirstOrder = 3;
 // Degrees: axes typed with four digits are as square as this.
 constexpr double kSquare = 0.1;
 
@@ -152,7 +156,7 @@ const std::vector<OptionSpec>& option_table() {
   static const std::vector<OptionSpec> table{
       {.name = "size",
        .unit = "mm",
-       .meaning = "Edge length of the hexahedra. Default: bounding-box diagonal / 30.",
+       .meaning = "Edge length of the hexahedra. Default: by the part, bounding-box diagonal / 15 at most.",
        .member = &MeshOptions::size,
        .max = 1e12,
        .zero_is_unset = true},
@@ -204,10 +208,21 @@ const std::vector<OptionSpec>& option_table() {
        .member = &MeshOptions::frame},
       {.name = "min_layers",
        .unit = "",
-       .meaning = "Elements through every wall at least.",
+       .meaning = "Elements through every wall at least. Default: 2 of second order, 3 of first.",
        .member = &MeshOptions::min_layers,
-       .min = 1,
+       .max = 1000,
+       .zero_is_unset = true},
+      {.name = "per_circle",
+       .unit = "",
+       .meaning = "Elements round every full circle at least, arcs in proportion. 0: as the size has it.",
+       .member = &MeshOptions::per_circle,
        .max = 1000},
+      {.name = "max_size",
+       .unit = "mm",
+       .meaning = "Edge length that no hexahedron is to exceed. Default: bounding-box diagonal / 15 where no size is given.",
+       .member = &MeshOptions::max_size,
+       .max = 1e12,
+       .zero_is_unset = true},
       {.name = "divisions",
        .unit = "",
        .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.",
@@ -322,6 +337,7 @@ void check(const MeshOptions& options) {
   if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1)
     throw InvalidInput("give only one of --size, --hexes and --coarsest");
   if (options.coarsest && !options.sizes.empty()) throw InvalidInput("--coarsest leaves no room for --sizes");
+  if (options.coarsest && options.max_size > 0) throw InvalidInput("--coarsest leaves no room for --max-size");
   if (!options.element_type.empty() && order_of(options.element_type) != options.order)
     throw InvalidInput("--element-type " + options.element_type + " is of order " + std::to_string(order_of(options.element_type)) +
                        ", but --order " + std::to_string(options.order) + " is asked for");
@@ -367,7 +383,23 @@ Mat3 frame_of(const FrameAxes& axes) {
   return frame;
 }
 
-double effective_size(const MeshOptions& options, double diagonal) { return options.size > 0 ? options.size : diagonal / kSizesPerDiagonal; }
+double effective_size(const MeshOptions& options, double diagonal) {
+  if (options.size > 0) return options.size;
+  return std::min(diagonal / kSizesPerDiagonal, options.max_size > 0 ? options.max_size : diagonal);
+}
+
+double effective_max_size(const MeshOptions& options, double diagonal) {
+  if (options.max_size > 0) return options.max_size;
+  const bool automatic = options.size == 0 && options.hexes == 0 && !options.coarsest;
+  return automatic ? diagonal / kSizesPerDiagonal : std::numeric_limits<double>::infinity();
+}
+
+int effective_min_layers(const MeshOptions& options) {
+  if (options.min_layers > 0) return options.min_layers;
+  return options.coarsest ? 1 : options.order == 2 ? kLayersOfSecondOrder : kLayersOfFirstOrder;
+}
+
+int effective_per_circle(const MeshOptions& options) { return options.coarsest ? 0 : options.per_circle; }
 
 std::string effective_element_type(const MeshOptions& options) {
   if (!options.element_type.empty()) return options.element_type;

@@ -35,7 +35,9 @@ struct MeshOptions {
   int threads = 0;
   FaceLabels labels;
   FrameAxes frame;
-  int min_layers = 1;
+  int min_layers = 0;
+  int per_circle = 12;
+  double max_size = 0;
   Divisions divisions;
   LocalSizes sizes;
   double fidelity = 3;
@@ -87,8 +89,17 @@ Mat3 frame_of(const FrameAxes& axes);
 /// Throws InvalidInput where about `hexes` hexahedra would be made and that is more than kMostHexes.
 void check_count(double hexes);
 
-/// Edge length in force, mm: `size`, or diagonal / 30 where it is 0.
+/// Edge length to come near to, mm: `size`, or diagonal / 15 (max_size where that is less) where it is 0.
 double effective_size(const MeshOptions& options, double diagonal);
+
+/// Edge length that none is to exceed, mm: max_size, or diagonal / 15 where no size is given; infinite where a size, a number or the coarsest mesh is asked for.
+double effective_max_size(const MeshOptions& options, double diagonal);
+
+/// Elements at least through every wall: `min_layers`, or 2 of second and 3 of first order where it is 0; of the coarsest mesh 1.
+int effective_min_layers(const MeshOptions& options);
+
+/// Elements at least round a full circle; 0: as the size has it. The coarsest mesh has none to keep.
+int effective_per_circle(const MeshOptions& options);
 
 /// Abaqus name of the elements in force: `element_type`, or C3D8 / C3D20 by order.
 std::string effective_element_type(const MeshOptions& options);

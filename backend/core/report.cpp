@@ -106,7 +106,8 @@ std::string to_json(const MeshReport& report) {
   json["seconds"] = seconds;
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["counts"] = {{"tets", report.tets},   {"charts", report.charts}, {"blocks", report.blocks},
-                    {"hexes", report.hexes}, {"nodes", report.nodes},   {"padded_hexes", report.padded_hexes}, {"loose_nodes", report.loose_nodes}};
+                    {"hexes", report.hexes}, {"nodes", report.nodes},   {"padded_hexes", report.padded_hexes}, {"loose_nodes", report.loose_nodes},
+                    {"thin_walls", report.thin_walls}, {"coarse_circles", report.coarse_circles}};
   json["quality"] = {{"min_scaled_jacobian", report.quality.min_scaled_jacobian},
                      {"mean_scaled_jacobian", report.quality.mean_scaled_jacobian},
                      {"inverted", report.quality.inverted},

@@ -56,6 +56,8 @@ struct MeshReport {
   bool out_of_time = false;             ///< the time limit ended the search: a better mesh was not looked for
   int padded_hexes = 0;                 ///< cells that padding added
   int loose_nodes = 0;                  ///< on CAD edges whose curve is there more than 1e-7 mm off a face of theirs (files with loose tolerances)
+  int thin_walls = 0;                   ///< pairs of CAD faces with fewer elements between them than asked for
+  int coarse_circles = 0;               ///< CAD edges with fewer elements along them than their turning asks for
   int straightened_edges = 0;           ///< second order: edges off the CAD because a cell would be spoilt by the curved ones
   std::vector<int> straightened_faces;  ///< CAD faces with such edges, ascending
   std::vector<std::string> warnings;    ///< one line each

@@ -189,7 +189,7 @@ QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, con
                                  const MeshOptions& options, double scale) {
   QuantizeOptions result;
   result.scale = scale;
-  result.min_layers = options.min_layers;
+  result.min_layers = std::max(1, options.min_layers);
   if (options.divisions.empty() && options.sizes.empty()) return result;
   const SideFaces side_faces = find_side_faces(tets, map, blocks);
   const auto chains = edge_chains(model, tets);

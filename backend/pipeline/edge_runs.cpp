@@ -79,7 +79,7 @@ std::vector<DistanceConstraint> room_for_edges(const std::vector<std::vector<int
       for (auto it = passed.begin(); it != passed.end(); ++it) {
         const auto& [at, count] = *it;
         if (at.second >= 0 && at != start) {
-          if (count > 1) constraints.push_back({start.second, at.second, count, std::numeric_limits<int>::max(), "room for edges"});
+          if (count > 1) constraints.push_back({start.second, at.second, count, std::numeric_limits<int>::max(), "room for edges", true});
           continue;
         }
         const auto next = links.find(at);

@@ -55,7 +55,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   book("label");
   if (until == Until::kMap) {
     DeformOptions deform_options;
-    deform_options.merge = 0.02 * size;
+    deform_options.merge = merge_distance(size, pose.model.diagonal());
     deform_options.threads = thread_count(options.threads);
     try {
       RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);

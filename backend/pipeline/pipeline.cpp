@@ -8,6 +8,7 @@
 #include "pipeline/demands.h"
 #include "pipeline/loose_nodes.h"
 #include "pipeline/search/evaluator.h"
+#include "pipeline/shortfalls.h"
 
 namespace polycube {
 namespace {
@@ -84,6 +85,10 @@ MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor
   for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
   r.cad_volume = model.volume();
   r.worst = worst_cells(result.mesh, result.association);
+  const Shortfalls short_of = find_shortfalls(model, result.mesh, result.association, effective_min_layers(options), effective_per_circle(options));
+  r.thin_walls = static_cast<int>(short_of.thin_walls.size());
+  r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
+  for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
   r.loose_nodes = count_loose_nodes(model, result.association, result.mesh.points);
   return result;
 }

@@ -118,7 +118,7 @@ Mat3 Pose::user_axes(const Mat3& posed_frame) const {
 MeshOptions Pose::posed(const MeshOptions& options) const {
   MeshOptions result = options;
   // The same size in the pose has to be the same to the last bit too.
-  if (result.size > 0) result.size = nine_digits(result.size * scale);
+  for (double* length : {&result.size, &result.max_size}) *length = *length > 0 ? nine_digits(*length * scale) : 0;
   for (auto& [face, label] : result.labels) label = posed_label(label);
   result.frame.clear();
   for (LocalSize& s : result.sizes) {

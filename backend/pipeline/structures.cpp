@@ -34,6 +34,8 @@ TetOptions tet_options(double size, double diagonal, double factor) {
   return result;
 }
 
+double merge_distance(double size, double diagonal) { return 0.02 * std::min(size, diagonal / 30); }
+
 LabelOptions label_options(const MeshOptions& options) {
   LabelOptions result;
   result.fidelity = options.fidelity;
@@ -154,7 +156,7 @@ void Structures::build(const StructurePlan& plan, Structure& s) {
   }
 
   DeformOptions deform_options;
-  deform_options.merge = 0.02 * size_;
+  deform_options.merge = merge_distance(size_, model_.diagonal());
   deform_options.threads = thread_count(options_.threads);
   RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options, monitor_); });
   s.map = std::move(realised.map);

@@ -18,6 +18,9 @@ namespace polycube {
 /// Of the tets that labels and map are made on; `size` of the hexahedra in mm, `factor` on that of the tets.
 TetOptions tet_options(double size, double diagonal, double factor = 1);
 
+/// Charts nearer than this become one plane; `size` as for tet_options.
+double merge_distance(double size, double diagonal);
+
 /// What the user says of the labels, in the pose.
 LabelOptions label_options(const MeshOptions& options);
 

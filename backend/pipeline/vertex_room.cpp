@@ -47,7 +47,7 @@ std::vector<DistanceConstraint> room_for_vertices(const CadModel& model, const T
         const int cells = inside + 1 - !vertex[first] - !vertex[n];
         int low = held[first][axis], high = held[n][axis];
         if (map.charts[low].value > map.charts[high].value) std::swap(low, high);
-        if (low != high && cells > 1) constraints.push_back({low, high, cells, std::numeric_limits<int>::max(), "room for CAD vertices"});
+        if (low != high && cells > 1) constraints.push_back({low, high, cells, std::numeric_limits<int>::max(), "room for CAD vertices", true});
       }
       first = n;
       inside = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -57,16 +58,61 @@ std::string layers_name(int layers) { return "at least " + std::to_string(layers
   throw InvalidInput("no valid mesh satisfies " + quoted(names));
 }
 
+bool yields(const DistanceConstraint& constraint) { return constraint.may_yield; }
+
+/// Of the constraints that contradict each other the one to leave out: the most that is asked for among those that may yield; -1 if none may.
+int yielding(const AxisProblem& axis, const QuantizeOptions& options) {
+  int most = -1;
+  for (const Difference& d : contradiction(axis, {})) {
+    if (d.source < 0 || !options.constraints[d.source].may_yield) continue;
+    if (most < 0 || options.constraints[d.source].at_least > options.constraints[most].at_least) most = d.source;
+  }
+  return most;
+}
+
+/// Without the constraints that may yield and contradict the others of their axis.
+QuantizeOptions consistent(const BlockComplex& blocks, const PolycuboidMap& map, QuantizeOptions options, std::vector<int>& yielded) {
+  std::vector<int> number(options.constraints.size());
+  std::iota(number.begin(), number.end(), 0);
+  bool again = std::any_of(options.constraints.begin(), options.constraints.end(), yields);
+  while (again) {
+    again = false;
+    const QuantizeProblem problem = build_problem(blocks, map, options);
+    for (const AxisProblem& axis : problem.axes) {
+      const int out = yielding(axis, options);
+      if (out < 0) continue;
+      yielded.push_back(number[out]);
+      options.constraints.erase(options.constraints.begin() + out);
+      number.erase(number.begin() + out);
+      again = true;
+      break;
+    }
+  }
+  std::sort(yielded.begin(), yielded.end());
+  return options;
+}
+
 }  // namespace
 
-Quantization quantize(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options, const Monitor& monitor) {
+Quantization quantize(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& given, const Monitor& monitor) {
   monitor.progress("quantize", 0);
-  const QuantizeProblem problem = build_problem(blocks, map, options);
   Quantization result;
+  const QuantizeOptions options = consistent(blocks, map, given, result.yielded);
+  const QuantizeProblem problem = build_problem(blocks, map, options);
   const MonotonePaths paths(blocks, map, problem, options.separate_features);
   const Search::Outcome outcome = Search(problem, paths, options.node_limit, monitor).run(result);
   if (outcome.infeasible_axis >= 0) report_contradiction(problem.axes[outcome.infeasible_axis], options);
-  if (!outcome.found) report_clash(blocks, map, options, paths, monitor);
+  if (!outcome.found) {
+    // Bounds from below alone always leave a mesh: what clashes with C2 are others, which come first.
+    if (std::none_of(options.constraints.begin(), options.constraints.end(), yields)) report_clash(blocks, map, options, paths, monitor);
+    QuantizeOptions firm = given;
+    std::erase_if(firm.constraints, yields);
+    result = quantize(blocks, map, firm, monitor);
+    for (int i = 0; i < static_cast<int>(given.constraints.size()); ++i) {
+      if (yields(given.constraints[i])) result.yielded.push_back(i);
+    }
+    return result;
+  }
   // The smallest of each axis is 0.
   AxisValues values = outcome.values;
   for (auto& v : values) {

@@ -15,6 +15,7 @@ struct DistanceConstraint {
   int at_least = std::numeric_limits<int>::min();
   int at_most = std::numeric_limits<int>::max();
   std::string name;  ///< for messages, e.g. "3 elements between Face2 and Face5"
+  bool may_yield = false;  ///< a bound that nobody asked for by name: left out where it contradicts others
 };
 
 struct QuantizeOptions {
@@ -36,6 +37,7 @@ struct Quantization {
   double objective = 0;  ///< Eq. 4
   double bound = 0;      ///< proved lower bound
   bool optimal = false;  ///< objective is proved: no better solution is left in the tree
+  std::vector<int> yielded;  ///< QuantizeOptions::constraints that were left out, ascending
   int c2_rounds = 0;     ///< times a solution was checked against C2
   int cuts = 0;          ///< different C2 constraints that were violated on the way
   int nodes = 0;         ///< of the search tree
@@ -45,7 +47,7 @@ struct Quantization {
 };
 
 /// Minimises Eq. 4 under C1 and C2. Past the node limit the best solution found, with optimal false and its gap. Throws InvalidInput when
-/// the constraints contradict each other, naming those that clash; StageFailed when there is no solution even without them.
+/// constraints that may not yield contradict each other, naming those that clash; StageFailed when there is no solution even without them.
 Quantization quantize(const BlockComplex& blocks, const PolycuboidMap& map, const QuantizeOptions& options, const Monitor& monitor);
 
 /// What is wrong with integers given to a block complex; all zero on good ones.

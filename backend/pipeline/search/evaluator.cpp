@@ -15,6 +15,7 @@
 #include "pad/associate.h"
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
+#include "pipeline/bounds.h"
 #include "pipeline/demands.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/gate.h"
@@ -219,24 +220,19 @@ class Evaluator::Work {
     const double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
     MeshOptions demanded = options_;
     demanded.divisions = divisions;
-    const QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
-    QuantizeOptions with_room = asked;
-    auto room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
-    if (roomy) {
-      auto chains = association.edge_chains;
-      for (const FeatureEdge& e : s.features.edges) {
-        if (e.capture == EdgeCapture::kLost) chains[e.edge].clear();
-      }
-      const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
-      room.insert(room.end(), more.begin(), more.end());
+    QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
+    const auto add = [&](const std::vector<DistanceConstraint>& more) { asked.constraints.insert(asked.constraints.end(), more.begin(), more.end()); };
+    add(room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored));
+    auto chains = association.edge_chains;
+    for (const FeatureEdge& e : s.features.edges) {
+      if (e.capture == EdgeCapture::kLost) chains[e.edge].clear();
     }
-    with_room.constraints.insert(with_room.constraints.end(), room.begin(), room.end());
-    try {
-      return quantize(s.blocks, s.map, with_room, monitor_);
-    } catch (const InvalidInput&) {
-      if (room.empty()) throw;
-      return quantize(s.blocks, s.map, asked, monitor_);  // what the user demands comes first
-    }
+    if (roomy) add(room_for_edges(chains, s.tets, s.map, s.blocks));
+    const std::vector<DistanceConstraint> bounds = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_);
+    add(bounds);
+    Quantization result = quantize(s.blocks, s.map, asked, monitor_);
+    for (const std::string& line : deciding(bounds, s.map, result.value, scale)) monitor_.log("size: " + line);
+    return result;
   }
 
   Routed routed(const Draft& draft, const HexComplex& complex) {

@@ -162,7 +162,33 @@ TEST(Options, AgainstThePart) {
   EXPECT_THAT(complains("sizes", "Face9=2"), HasSubstr("Face9"));
   EXPECT_THAT(complains("keep_faces", "Face7"), HasSubstr("--keep-faces: Face7 does not exist"));
   EXPECT_EQ(complains("sizes", "Face6=2"), "");
-  EXPECT_DOUBLE_EQ(effective_size(MeshOptions{}, 60), 2);
+}
+
+TEST(Options, WithoutASizeThePartDecides) {
+  MeshOptions o;
+  EXPECT_DOUBLE_EQ(effective_size(o, 60), 4);
+  EXPECT_DOUBLE_EQ(effective_max_size(o, 60), 4);
+  EXPECT_EQ(effective_min_layers(o), 2);
+  o.order = 1;
+  EXPECT_EQ(effective_min_layers(o), 3);
+  o.max_size = 3;
+  EXPECT_DOUBLE_EQ(effective_size(o, 60), 3);
+  EXPECT_DOUBLE_EQ(effective_max_size(o, 60), 3);
+  o.max_size = 0;
+  o.size = 6;
+  EXPECT_DOUBLE_EQ(effective_size(o, 60), 6);
+  EXPECT_EQ(effective_max_size(o, 60), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(effective_per_circle(o), 12);
+  o = {};
+  o.coarsest = true;
+  EXPECT_EQ(effective_min_layers(o), 1);
+  EXPECT_EQ(effective_per_circle(o), 0);
+  o.min_layers = 4;
+  EXPECT_EQ(effective_min_layers(o), 4);
+  EXPECT_EQ(parse_options({{"per_circle", "0"}}).per_circle, 0);
+  EXPECT_THAT(complaint({{"max_size", "0"}}), HasSubstr("--max-size"));
+  EXPECT_THAT(complaint({{"per_circle", "-1"}}), HasSubstr("--per-circle"));
+  EXPECT_THAT(complaint({{"coarsest", "true"}, {"max_size", "2"}}), HasSubstr("--max-size"));
 }
 
 }  // namespace

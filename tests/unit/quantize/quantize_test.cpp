@@ -89,6 +89,24 @@ TEST(Quantize, ContradictionIsNamed) {
   }
 }
 
+// A bound gives way to a demand, and no other bound with it; clashes with C2 included.
+TEST(Quantize, BoundsThatMayYieldDo) {
+  const Example e = testing::tetrahedralise(testing::box_cells({1, 1, 1}), 1);
+  const BlockComplex blocks = extract_blocks(e.tets, e.map, Monitor());
+  QuantizeOptions options;
+  const auto bound = [&](int axis, int at_least) {
+    options.constraints.push_back({chart_at(e, axis, -1, 0), chart_at(e, axis, 1, 1), at_least, std::numeric_limits<int>::max(), "a bound", true});
+  };
+  bound(0, 4);
+  bound(1, 5);
+  options.constraints.push_back({chart_at(e, 0, -1, 0), chart_at(e, 0, 1, 1), std::numeric_limits<int>::min(), 3, "no more than three"});
+  bound(0, 2);
+  const Quantization q = quantize(blocks, e.map, options, Monitor());
+  EXPECT_EQ(q.yielded, std::vector<int>{0});
+  EXPECT_EQ(q.value[chart_at(e, 0, 1, 1)], 2);
+  EXPECT_EQ(q.value[chart_at(e, 1, 1, 1)], 5);
+}
+
 TEST(Quantize, SizePerDirectionAndRegion) {
   std::set<Place3> places;
   testing::add_box(places, {0, 0, 0}, {4, 1, 1});

@@ -120,18 +120,24 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
 
 
 def _options(mesh, sizes):
-    """The mesh's options with each size, coarse to fine; sizes on faces go with it."""
+    """The mesh's options with each size, coarse to fine; sizes on faces and elements round circles and through walls go with it."""
     options = option_table.read(mesh)
     hexes = options.pop("hexes", None)
     shape = shapes.shape_of(objects.part_of(mesh), beside=mesh)
-    now = (shape.Volume / hexes) ** (1 / 3) if hexes else options.get("size") or shape.BoundBox.DiagonalLength / 30
+    longest = shape.BoundBox.DiagonalLength / 15
+    now = (shape.Volume / hexes) ** (1 / 3) if hexes else options.get("size") or min(options.get("max_size") or longest, longest)
+    defaults = {option["name"]: option["default"] for option in option_table.table()}
+    round_circles = options.get("per_circle", defaults["per_circle"])
+    through_walls = options.get("min_layers") or (2 if options.get("order", defaults["order"]) == 2 else 3)
     if isinstance(sizes, int):
         sizes = [now * _STEP ** ((sizes - 1) / 2 - i) for i in range(sizes)]
     sizes = sorted((float(size) for size in sizes), reverse=True)
     if len(sizes) < 3 or len(set(sizes)) < len(sizes) or sizes[-1] <= 0:
         raise InvalidInput("three different sizes are needed, or more")
     for size in sizes:
-        found = dict(options, size=size)
+        found = dict(options, size=size, per_circle=round(round_circles * now / size), min_layers=max(1, round(through_walls * now / size)))
+        if options.get("max_size"):
+            found["max_size"] = options["max_size"] * size / now
         if options.get("sizes"):
             pairs = (pair.split("=") for pair in options["sizes"].split(","))
             found["sizes"] = {what: float(amount) * size / now for what, amount in pairs}

@@ -12,7 +12,7 @@ from . import engine
 from .errors import InvalidInput
 
 #: Names that FreeCAD users know from the Gmsh mesher.
-_FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder"}
+_FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder", "per_circle": "MeshSizeFromCurvature"}
 #: FreeCAD writes its own element types to the solver.
 _NOT_IN_FREECAD = {"element_type"}
 _ORDERS = ["1st", "2nd"]

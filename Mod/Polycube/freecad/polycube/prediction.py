@@ -2,8 +2,8 @@
 
 import math
 
-#: The engine's size where none is given: a share of the bounding box's diagonal.
-DIAGONALS = 30
+#: The largest size that the engine takes where none is given: a share of the bounding box's diagonal. Round circles and in walls it takes smaller ones.
+DIAGONALS = 15
 #: A count is worth a question where local sizes make it so many times that without them, and so large; guesses of what surprises.
 _TIMES, _MANY = 10, 20000
 

@@ -1,0 +1,19 @@
+// Bounds from below that the part itself asks for, as constraints of the quantization: cells enough through walls and round circles, none too long.
+#pragma once
+
+#include "blocks/blocks.h"
+#include "cad/cad.h"
+#include "core/options.h"
+#include "quantize/quantize.h"
+
+namespace polycube {
+
+/// All of them may yield to what is demanded by name. `options` in the pose of the map; `edge_chains`: tet mesh points along every CAD edge, empty for those
+/// that the map does not follow.
+std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
+                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options);
+
+/// Names of the constraints that the integers just meet and that ask for more than `scale` (cells per unit of the map) would give, each once.
+std::vector<std::string> deciding(const std::vector<DistanceConstraint>& constraints, const PolycuboidMap& map, const std::vector<int>& value, double scale);
+
+}  // namespace polycube

@@ -1,0 +1,26 @@
+// CAD edges that turn, and the mesh edges that each needs to look round.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cad/cad.h"
+
+namespace polycube {
+
+/// A CAD edge that turns by enough to need two mesh edges or more.
+struct RoundEdge {
+  int edge = 0;
+  double turn = 0;   ///< of its tangent from start to end, radians
+  int elements = 0;  ///< at least
+  std::string name;  ///< for the log, such as "Face12: 12 elements round the bore" or "Edge7: 3 elements along the arc"
+};
+
+/// `per_circle` elements for every full turn, in proportion for less, at most 8 where the circle is smaller than a hundredth of the diagonal. Ascending by edge;
+/// seams and points are none. 0 gives none.
+std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle);
+
+/// How far the tangent of a CAD edge turns between two parameters, radians.
+double edge_turn(const CadModel& model, int edge, double from, double to);
+
+}  // namespace polycube

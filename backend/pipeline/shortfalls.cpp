@@ -1,0 +1,62 @@
+#include "pipeline/shortfalls.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+
+#include "pad/topology.h"
+#include "pipeline/circles.h"
+
+namespace polycube {
+namespace {
+
+// Cosine of the angle between the outward normals at the two sides of a wall: tapered ones up to 60 degrees count, the corner of a layer that padding
+// put under two faces does not.
+constexpr double kOpposite = -0.5;
+
+Vec3 unit_normal(const std::vector<Vec3>& points, const Quad& q) {
+  return (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]).normalized();
+}
+
+std::string faces_of(const std::vector<int>& patch) {
+  std::string text;
+  for (int f : patch) text += (text.empty() ? "" : "+") + name({2, f});
+  return text;
+}
+
+std::string counted(int elements) { return std::to_string(elements) + (elements == 1 ? " element" : " elements"); }
+
+}  // namespace
+
+Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle) {
+  Shortfalls result;
+  if (min_layers > 1) {
+    const HexTopology topology = build_topology(mesh, association.quads);
+    std::map<std::array<int, 2>, int> least;  // per pair of patches
+    for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
+      int side = topology.quad_side[q], cells = 0;
+      while (side >= 0 && cells < min_layers) {
+        ++cells;
+        side = topology.mate[side ^ 1];
+      }
+      const int end = -1 - side;
+      if (side >= 0 || cells >= min_layers || end >= static_cast<int>(association.quads.size())) continue;
+      if (unit_normal(mesh.points, association.quads[q]).dot(unit_normal(mesh.points, association.quads[end])) > kOpposite) continue;
+      const int a = association.quad_patch[q], b = association.quad_patch[end];
+      const auto [at, fresh] = least.try_emplace({std::min(a, b), std::max(a, b)}, cells);
+      if (!fresh) at->second = std::min(at->second, cells);
+    }
+    for (const auto& [pair, cells] : least) {
+      result.thin_walls.push_back(faces_of(association.patches[pair[0]]) + "-" + faces_of(association.patches[pair[1]]) + ": " + counted(cells) +
+                                  " through the wall, not " + std::to_string(min_layers));
+    }
+  }
+  for (const RoundEdge& round : round_edges(model, per_circle)) {
+    const auto elements = static_cast<int>(std::count(association.segment_edge.begin(), association.segment_edge.end(), round.edge));
+    if (elements == 0 || elements >= round.elements) continue;
+    result.coarse_circles.push_back(name({1, round.edge}) + ": " + counted(elements) + " along the curve, not " + std::to_string(round.elements));
+  }
+  return result;
+}
+
+}  // namespace polycube

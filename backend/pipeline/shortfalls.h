@@ -1,0 +1,19 @@
+// Where a finished mesh has fewer cells than the part asks for.
+#pragma once
+
+#include <string>
+
+#include "cad/cad.h"
+#include "core/mesh.h"
+
+namespace polycube {
+
+/// Walls with fewer cells through them, and circles with fewer mesh edges round them; one line each, such as "Face3-Face7: 1 element through the wall, not 2".
+struct Shortfalls {
+  std::vector<std::string> thin_walls;      ///< pairs of patches whose quads look away from each other at the two ends of a column of cells
+  std::vector<std::string> coarse_circles;  ///< CAD edges; lost ones are told as lost
+};
+
+Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle);
+
+}  // namespace polycube

@@ -4,8 +4,17 @@
 
 namespace polycube {
 
-Monitor::Monitor(const Monitor& other, Clock::time_point deadline)
-    : on_progress(other.on_progress), on_log(other.on_log), cancel_requested([&other] { return other.stop_asked(); }), deadline_(deadline) {}
+Monitor::Monitor(const Monitor& other, Clock::time_point deadline) {
+  follow(other);
+  deadline_ = deadline;
+}
+
+void Monitor::follow(const Monitor& other) {
+  on_progress = other.on_progress;
+  on_log = other.on_log;
+  cancel_requested = [&other] { return other.stop_asked(); };
+  deadline_ = other.deadline_;
+}
 
 void Monitor::check() const {
   if (stop_asked()) throw Cancelled("cancelled");

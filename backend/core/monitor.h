@@ -17,6 +17,8 @@ class Monitor {
   Monitor() = default;
   /// Reports where the other reports and is cancelled with it, but has a deadline of its own. Keeps a reference to it.
   Monitor(const Monitor& other, Clock::time_point deadline);
+  /// From now on as if made from the other, with its deadline. Not while work runs.
+  void follow(const Monitor& other);
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 

@@ -42,6 +42,7 @@ struct MeshOptions {
   LocalSizes sizes;
   double fidelity = 3;
   double compactness = 1;
+  friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
 };
 
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.

@@ -8,6 +8,7 @@
 #include "core/options.h"
 #include "core/report.h"
 #include "fem/fem.h"
+#include "pipeline/session.h"
 
 namespace polycube {
 
@@ -19,6 +20,9 @@ struct PartMesh {
 /// Reads the part, checks the options against it, meshes it and makes elements of the order asked for. The caller's monitor carries
 /// progress, cancel and deadline. Throws what `read` and mesh() throw.
 PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor);
+
+/// The same on a part that is there already: its stages begin with what the session has not made before.
+PartMesh mesh_part(Session& session, const MeshOptions& options, const Monitor& monitor);
 
 /// For what is left to do with a mesh: one that the time limit ended the search for is handed out all the same, so there is no deadline
 /// then.

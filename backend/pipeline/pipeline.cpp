@@ -8,6 +8,7 @@
 #include "pipeline/demands.h"
 #include "pipeline/loose_nodes.h"
 #include "pipeline/search/evaluator.h"
+#include "pipeline/session.h"
 #include "pipeline/shortfalls.h"
 
 namespace polycube {
@@ -20,9 +21,8 @@ constexpr double kFinishing = 20;
 // Share of the time limit after which a search without a mesh looks for any (guess): the last ways take some fits too.
 constexpr double kHurry = 0.5;
 
-MeshResult search_mesh(const Pose& pose, const MeshOptions& options, const Monitor& monitor) {
-  Monitor searching(monitor, monitor.deadline());
-  Evaluator evaluator(pose, options, searching);
+MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, Monitor& searching, const Monitor& monitor) {
+  Evaluator evaluator(pose, options, structures, clock, searching);
   const Budget budget = budget_of(options.effort);
   const auto evaluate = [&](const Plan& plan, const Made* from, int fits) {
     Outcome outcome = evaluator.evaluate(plan, from, fits);
@@ -55,42 +55,105 @@ StageFailed with_labels(const StageFailed& failure, const FaceLabels& labels) {
   return StageFailed(failure.stage(), text + " set by hand", failure.entities());
 }
 
-}  // namespace
+// What structures depend on: all else is at its default. Of sizes only those along axes, which leave the part one frame.
+MeshOptions structural(const MeshOptions& options) {
+  MeshOptions result;
+  result.labels = options.labels;
+  result.frame = options.frame;
+  result.feature_angle = options.feature_angle;
+  result.keep_faces = options.keep_faces;
+  result.fidelity = options.fidelity;
+  result.compactness = options.compactness;
+  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
+  if (by_axis) result.sizes = {{.axis = 0, .size = 1}};
+  return result;
+}
 
-MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) {
+void check_all(const CadModel& model, const MeshOptions& options) {
   check(options);
   check(options, model.diagonal(), model.faces(), model.edges());
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
-  const Pose pose = canonical_pose(model, options.frame);
+}
+
+}  // namespace
+
+/// The part in its pose, and its structures; they report to `monitor`, which follows that of each call.
+struct Session::Prepared {
+  Prepared(const CadModel& model, const MeshOptions& given)
+      : key(structural(given)), pose(canonical_pose(model, given.frame)), options(pose.posed(given)), structures(pose, options, clock, monitor) {}
+  MeshOptions key;
+  Pose pose;
+  MeshOptions options;  // of the pose
+  Monitor monitor;
+  StageClock clock{monitor};
+  Structures structures;
+};
+
+Session::Session(CadModel model, const MeshOptions& options) : model_(std::move(model)), first_(options) { check_all(model_, options); }
+
+Session::~Session() = default;
+
+Session::Prepared& Session::prepared(const MeshOptions& options) {
+  if (prepared_ && prepared_->key == structural(options)) return *prepared_;
+  MeshOptions made = options;  // of the size that was given first
+  made.size = first_.size;
+  made.max_size = first_.max_size;
+  made.hexes = first_.hexes;
+  made.coarsest = first_.coarsest;
+  made.threads = first_.threads;
+  prepared_.reset();
+  prepared_ = std::make_unique<Prepared>(model_, made);
+  return *prepared_;
+}
+
+void Session::prepare(const Monitor& monitor) {
+  Prepared& p = prepared(first_);
+  p.monitor.follow(monitor);
+  try {
+    p.structures.structure({.labels = p.structures.label_order().front()});
+  } catch (const StageFailed& e) {
+    monitor.log(e.stage() + ": " + e.what());
+  }
+}
+
+MeshResult Session::mesh(const MeshOptions& options, const Monitor& monitor) {
+  check_all(model_, options);
+  Prepared& p = prepared(options);
+  p.monitor.follow(monitor);
+  p.clock.restart();
+  const Pose& pose = p.pose;
+  const MeshOptions posed = pose.posed(options);
   MeshResult result = [&] {
     try {
-      return search_mesh(pose, pose.posed(options), monitor);
+      return search_mesh(pose, posed, p.structures, p.clock, p.monitor, monitor);
     } catch (const StageFailed& e) {
       throw with_labels(e, options.labels);
     }
   }();
   // A mesh that is there is handed out, late or not.
   const Monitor finishing(monitor, result.report.out_of_time ? Monitor::Clock::time_point::max() : monitor.deadline());
-  restore(pose, model, result.association, result.mesh, finishing);
+  restore(pose, model_, result.association, result.mesh, finishing);
   const QualitySummary quality = summarise(result.mesh);
   if (!(quality.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells lose their volume on the way back to the part's place");
   MeshReport& r = result.report;
   r.options = options;
-  r.warnings.insert(r.warnings.begin(), model.warnings().begin(), model.warnings().end());
+  r.warnings.insert(r.warnings.begin(), model_.warnings().begin(), model_.warnings().end());
   r.size /= pose.scale;
   r.quality = quality;
   r.shape = summarise_shape(result.mesh);
   r.volume = 0;
   for (const Hex& h : result.mesh.hexes) r.volume += hex_volume(result.mesh.points, h);
-  r.cad_volume = model.volume();
+  r.cad_volume = model_.volume();
   r.worst = worst_cells(result.mesh, result.association);
-  const Shortfalls short_of = find_shortfalls(model, result.mesh, result.association, effective_min_layers(options), effective_per_circle(options));
+  const Shortfalls short_of = find_shortfalls(model_, result.mesh, result.association, effective_min_layers(options), effective_per_circle(options));
   r.thin_walls = static_cast<int>(short_of.thin_walls.size());
   r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
   for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
-  r.loose_nodes = count_loose_nodes(model, result.association, result.mesh.points);
+  r.loose_nodes = count_loose_nodes(model_, result.association, result.mesh.points);
   return result;
 }
+
+MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) { return Session(model, options).mesh(options, monitor); }
 
 }  // namespace polycube

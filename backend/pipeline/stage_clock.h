@@ -29,6 +29,7 @@ class StageClock {
     } book{this, name, start};
     return work();
   }
+  void restart() { records_.clear(); }
   const std::vector<StageRecord>& records() const { return records_; }
 
  private:

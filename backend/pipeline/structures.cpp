@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "core/parallel.h"
@@ -27,6 +28,10 @@ bool in_doubt(const Structure& s) { return s.failure || s.flipped > kFewFlips; }
 
 }  // namespace
 
+double wanted_size(const MeshOptions& options, const CadModel& model) {
+  return options.hexes > 0 ? std::cbrt(model.volume() / options.hexes) : effective_size(options, model.diagonal());
+}
+
 TetOptions tet_options(double size, double diagonal, double factor) {
   TetOptions result;
   // The map needs enough tets to bend; more than that costs time and brings nothing, the hexahedra need not be as fine.
@@ -45,8 +50,14 @@ LabelOptions label_options(const MeshOptions& options) {
   return result;
 }
 
-Structures::Structures(const Pose& pose, const MeshOptions& options, double size, std::vector<char> ignored, StageClock& clock, const Monitor& monitor)
-    : pose_(pose), model_(pose.model), options_(options), size_(size), ignored_(std::move(ignored)), clock_(clock), monitor_(monitor) {}
+Structures::Structures(const Pose& pose, const MeshOptions& options, StageClock& clock, const Monitor& monitor)
+    : pose_(pose),
+      model_(pose.model),
+      options_(options),
+      size_(wanted_size(options, pose.model)),
+      ignored_(smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
+      clock_(clock),
+      monitor_(monitor) {}
 
 const TetMesh& Structures::tets(double factor) {
   const auto found = tets_.find(factor);
@@ -118,13 +129,15 @@ std::vector<char> Structures::left_out(const StructurePlan& plan) const {
 const Structure& Structures::built(const StructurePlan& plan) {
   const auto found = structures_.find(plan);
   if (found != structures_.end()) return found->second;
-  Structure made;
+  Structure structure;
+  std::vector<std::vector<int>> made;
   try {
-    build(plan, made);
+    build(plan, structure, made);
   } catch (const StageFailed& e) {
-    made.failure = e;
+    structure.failure = e;
   }
-  return structures_.emplace(plan, std::move(made)).first->second;
+  tried_.insert(std::move(made));
+  return structures_.emplace(plan, std::move(structure)).first->second;
 }
 
 const Structure& Structures::structure(const StructurePlan& plan) {
@@ -135,7 +148,8 @@ const Structure& Structures::structure(const StructurePlan& plan) {
 
 bool Structures::repeats(const StructurePlan& plan) { return built(plan).repeats; }
 
-void Structures::build(const StructurePlan& plan, Structure& s) {
+// `made` becomes its labels and features.
+void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made) {
   LabelChoice& choice = labellings(plan.tet_size);
   const auto labelled = [&](const LabelVariant& v) -> const Labelled& {
     return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
@@ -147,10 +161,10 @@ void Structures::build(const StructurePlan& plan, Structure& s) {
   s.tets = chosen.mesh;
   s.features = clock_.stage("label", [&] { return find_features(model_, s.tets, chosen.labelling, out, monitor_); });
   if (!plan.features) s.features.charts.clear();
-  std::vector<std::vector<int>> made{chosen.labelling.label};
+  made.push_back(chosen.labelling.label);
   for (const FeatureEdge& e : s.features.edges) made.push_back({e.edge, static_cast<int>(e.capture), out[e.edge]});
   made.push_back({static_cast<int>(s.features.charts.size())});
-  if (!tried_.insert(std::move(made)).second) return repeat(s);
+  if (tried_.contains(made)) return repeat(s);
   for (const FeatureEdge& e : s.features.edges) {
     if (e.capture == EdgeCapture::kLost && !out[e.edge]) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
   }

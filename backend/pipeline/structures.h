@@ -15,6 +15,9 @@
 
 namespace polycube {
 
+/// Edge length of the hexahedra to come near to, mm: that of their number where that is given.
+double wanted_size(const MeshOptions& options, const CadModel& model);
+
 /// Of the tets that labels and map are made on; `size` of the hexahedra in mm, `factor` on that of the tets.
 TetOptions tet_options(double size, double diagonal, double factor = 1);
 
@@ -48,8 +51,8 @@ struct Structure {
 /// The structures of one part, each made when it is first asked for.
 class Structures {
  public:
-  /// `ignored`: per CAD edge, the user does without it. Keeps references to pose, options (of the pose), clock and monitor.
-  Structures(const Pose& pose, const MeshOptions& options, double size, std::vector<char> ignored, StageClock& clock, const Monitor& monitor);
+  /// Keeps references to pose, options (of the pose), clock and monitor. A run of them that was cancelled leaves them as they were.
+  Structures(const Pose& pose, const MeshOptions& options, StageClock& clock, const Monitor& monitor);
 
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
@@ -73,7 +76,7 @@ class Structures {
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
   const Structure& built(const StructurePlan& plan);
-  void build(const StructurePlan& plan, Structure& s);
+  void build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made);
 
   const Pose& pose_;
   const CadModel& model_;

@@ -35,6 +35,49 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
   });
 }
 
+/// A part that is meshed several times. What is given to mesh() comes before what was given at first.
+class PartSession {
+ public:
+  PartSession(CadModel model, py::kwargs given) : session_(std::move(model), options_from(given)), given_(std::move(given)) {}
+
+  void prepare(Callbacks& callbacks) {
+    const MeshOptions options = options_from(given_);
+    run_released(callbacks, options, [&] {
+      session_.prepare(callbacks.monitor);
+      return true;
+    });
+  }
+
+  Mesh mesh(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
+    py::kwargs all(given_.attr("copy")());
+    const auto names_size = [](const py::dict& d) { return d.contains("size") || d.contains("hexes") || d.contains("coarsest"); };
+    if (names_size(more)) {
+      for (const char* name : {"size", "hexes", "coarsest"}) all.attr("pop")(name, py::none());
+    }
+    all.attr("update")(more);
+    const MeshOptions options = options_from(all);
+    Callbacks callbacks(progress, log, cancel);
+    const std::unique_lock lock(at_work_, std::try_to_lock);
+    if (!lock.owns_lock()) throw InvalidInput("the session is at work in another thread");
+    return run_released(callbacks, options, [&] { return mesh_part(session_, options, callbacks.monitor); });
+  }
+
+ private:
+  Session session_;
+  py::kwargs given_;
+  std::mutex at_work_;
+};
+
+std::unique_ptr<PartSession> prepare(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+                                     const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
+  const MeshOptions options = options_from(given);
+  Callbacks callbacks(progress, log, cancel);
+  CadModel model = run_released(callbacks, options, [&] { return read_model(path, brep, object, options, callbacks.monitor); });
+  auto session = std::make_unique<PartSession>(std::move(model), given);
+  session->prepare(callbacks);
+  return session;
+}
+
 void write_mesh(const Mesh& mesh, const std::string& path, const std::optional<std::string>& element_type) {
   const py::gil_scoped_release released;
   write(mesh.fem, path, element_type.value_or(effective_element_type(mesh.report.options)), Monitor());
@@ -68,6 +111,12 @@ void bind_mesh(py::module_& module) {
   });
   cls.def("write", &write_mesh, py::arg("path"), py::arg("element_type") = py::none(),
           "Writes .inp, .unv, .vtu, .med or .mesh by suffix; element_type (.inp only) overrides the option.");
+  py::class_<PartSession>(module, "Session", "A part that is meshed several times; what does not depend on counts and sizes is made once.")
+      .def("mesh", &PartSession::mesh, py::kw_only(), py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+           "As mesh(), by the options given to prepare() and these, which come first.");
+  module.def("prepare", &prepare, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
+             py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+             "A Session of one CAD solid, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");
   module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "Hexahedral mesh of one CAD solid. Further keyword arguments: options().");

@@ -116,6 +116,31 @@ class Mesh(FolderTest):
                 _polycube.mesh(brep=text)
 
 
+class Sessions(unittest.TestCase):
+    def setUp(self):
+        self.session = _polycube.prepare(brep=box().exportBrepToString(), order=1, size=1)
+
+    def test_sizes_share_the_map(self):
+        fine, coarse = self.session.mesh(), self.session.mesh(size=2)
+        self.assertGreater(len(fine.hexes), len(coarse.hexes))
+        for mesh in (fine, coarse):
+            self.assertEqual(mesh.order, 1)
+            self.assertFalse({"read", "tet", "deform", "blocks"} & {stage["name"] for stage in mesh.report["stages"]})
+        again = self.session.mesh(size=1)
+        np.testing.assert_array_equal(again.nodes, fine.nodes)
+        self.assertLess(len(self.session.mesh(hexes=50).hexes), len(fine.hexes))
+        self.assertEqual(self.session.mesh(order=2).order, 2)
+
+    def test_errors_leave_it_usable(self):
+        with self.assertRaises(_polycube.InvalidInput):
+            self.session.mesh(divisions={"Edge99": "3"})
+        with self.assertRaises(_polycube.Cancelled):
+            self.session.mesh(size=0.5, cancel=lambda: True)
+        self.assertGreater(len(self.session.mesh().hexes), 0)
+        with self.assertRaises(_polycube.InvalidInput):
+            _polycube.prepare(brep="nonsense")
+
+
 class Callbacks(unittest.TestCase):
     text = cylinder().exportBrepToString()
 

@@ -306,16 +306,16 @@ class Evaluator::Work {
   int fits_left_;
 };
 
-Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, const Monitor& monitor)
+Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor)
     : pose_(pose),
       model_(pose.model),
       options_(options),
       monitor_(monitor),
-      size_(options.hexes > 0 ? std::cbrt(model_.volume() / options.hexes) : effective_size(options, model_.diagonal())),
+      size_(wanted_size(options, model_)),
       ignored_(smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
       threads_(thread_count(options.threads)),
-      clock_(monitor),
-      structures_(pose, options, size_, ignored_, clock_, monitor) {}
+      clock_(clock),
+      structures_(structures) {}
 
 Evaluator::~Evaluator() = default;
 

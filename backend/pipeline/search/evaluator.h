@@ -8,11 +8,11 @@
 
 namespace polycube {
 
-/// The real stages behind Evaluate (search.h). Keeps what plans share: tetrahedra, labels, maps and blocks, each made when a plan first asks for it.
+/// The real stages behind Evaluate (search.h), on what the structures hold.
 class Evaluator {
  public:
-  /// Works in the pose; `options` are those of the pose too. Keeps references to pose, options and monitor.
-  Evaluator(const Pose& pose, const MeshOptions& options, const Monitor& monitor);
+  /// Works in the pose; `options` are those of the pose too. Keeps references to all of them.
+  Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor);
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
   ~Evaluator();
@@ -38,8 +38,8 @@ class Evaluator {
   double size_;
   std::vector<char> ignored_;  // per CAD edge: the user does without it
   int threads_;
-  StageClock clock_;
-  Structures structures_;
+  StageClock& clock_;
+  Structures& structures_;
   double gate_seconds_ = 0;
 };
 

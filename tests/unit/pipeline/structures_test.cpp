@@ -12,9 +12,13 @@ namespace {
 struct Part {
   explicit Part(const std::string& brep, const MeshOptions& given = {})
       : pose(canonical_pose(CadModel::from_brep(brep), given.frame)),
-        options(pose.posed(given)),
+        options(sized(pose.posed(given), pose.model.diagonal() / 20)),
         clock(monitor),
-        structures(pose, options, pose.model.diagonal() / 20, std::vector<char>(static_cast<std::size_t>(pose.model.edge_count()) + 1, 0), clock, monitor) {}
+        structures(pose, options, clock, monitor) {}
+  static MeshOptions sized(MeshOptions options, double size) {
+    options.size = size;
+    return options;
+  }
   Monitor monitor;
   Pose pose;
   MeshOptions options;

@@ -1,0 +1,79 @@
+// Meshes of one part that share what does not depend on counts and sizes.
+#include "pipeline/session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/error.h"
+#include "support/shapes.h"
+
+namespace polycube {
+namespace {
+
+std::vector<std::string> stages(const MeshResult& result) {
+  std::vector<std::string> names;
+  for (const StageRecord& s : result.report.stages) names.push_back(s.name);
+  return names;
+}
+
+bool equal(const MeshResult& a, const MeshResult& b) { return a.mesh.hexes == b.mesh.hexes && a.mesh.points == b.mesh.points; }
+
+MeshOptions of_size(double size) {
+  MeshOptions options;
+  options.size = size;
+  return options;
+}
+
+class Sessions : public ::testing::Test {
+ protected:
+  const CadModel plate_ = CadModel::from_brep(shapes::plate_with_hole(40, 30, 8, 6));
+};
+
+TEST_F(Sessions, MapOnceForAllSizes) {
+  Session session(plate_, {});
+  session.prepare(Monitor());
+  const MeshResult first = session.mesh({}, Monitor());
+  EXPECT_TRUE(equal(first, mesh(plate_, {}, Monitor())));
+  MeshOptions divided = of_size(3);
+  divided.divisions = {{1, {}, 7, 7}};
+  for (const MeshOptions& options : {of_size(2), of_size(5), divided}) {
+    const MeshResult again = session.mesh(options, Monitor());
+    EXPECT_THAT(stages(again), ::testing::Not(::testing::Contains(::testing::AnyOf("tet", "deform", "blocks"))));
+    EXPECT_THAT(stages(again), ::testing::Contains("quantize"));
+  }
+  EXPECT_TRUE(equal(first, session.mesh({}, Monitor())));  // what was meshed in between leaves no trace
+}
+
+TEST_F(Sessions, OtherLabelsAreAnotherMap) {
+  Session session(plate_, {});
+  const MeshResult first = session.mesh({}, Monitor());
+  MeshOptions turned;
+  turned.frame = {Vec3(1, 1, 0), Vec3(-1, 1, 0)};
+  const MeshResult other = session.mesh(turned, Monitor());
+  EXPECT_THAT(stages(other), ::testing::Contains("deform"));
+  EXPECT_TRUE(equal(other, mesh(plate_, turned, Monitor())));
+  EXPECT_TRUE(equal(first, session.mesh({}, Monitor())));
+}
+
+// Stopped while the map is made, it is made again.
+TEST_F(Sessions, GoOnAfterACancel) {
+  Session session(plate_, {});
+  Monitor stopping;
+  stopping.on_progress = [&](const std::string& stage, double) {
+    if (stage == "deform") stopping.cancel();
+  };
+  EXPECT_THROW(session.mesh({}, stopping), Cancelled);
+  EXPECT_TRUE(equal(session.mesh({}, Monitor()), mesh(plate_, {}, Monitor())));
+}
+
+TEST_F(Sessions, RefuseWhatThePartHasNot) {
+  Session session(plate_, {});
+  MeshOptions options;
+  options.divisions = {{99, {}, 2, 2}};
+  EXPECT_THROW(session.mesh(options, Monitor()), InvalidInput);
+  EXPECT_THROW(Session(plate_, options), InvalidInput);
+  EXPECT_GT(session.mesh({}, Monitor()).report.hexes, 0);
+}
+
+}  // namespace
+}  // namespace polycube

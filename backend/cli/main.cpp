@@ -80,14 +80,17 @@ class OptionArguments {
   std::vector<std::unique_ptr<Argument>> arguments_;
 };
 
+/// What is wrong with the name of a file, as CLI11 wants it.
+std::string named_file(const std::string& name) { return name.empty() ? "the name of the file is empty" : ""; }
+
 double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
 
 /// What the commands on a CAD part have in common.
 struct PartCommand {
   PartCommand(CLI::App& app, const char* name, const char* meaning) : command(*app.add_subcommand(name, meaning)), arguments(command) {
-    command.add_option("part", part, "CAD solid: .step, .stp, .iges, .igs, .brep, .brp or .FCStd")->required();
+    command.add_option("part", part, "CAD solid: .step, .stp, .iges, .igs, .brep, .brp or .FCStd")->required()->check(named_file);
     command.add_option("--object", object, "Object of a .FCStd document, by name or label");
-    command.add_option("--report", report, "Write a report as JSON");
+    command.add_option("--report", report, "Write a report as JSON")->check(named_file);
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
   }
 
@@ -117,7 +120,7 @@ struct PartCommand {
 
 struct MeshCommand : PartCommand {
   explicit MeshCommand(CLI::App& app) : PartCommand(app, "mesh", "Hexahedral mesh of a CAD solid") {
-    command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required();
+    command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required()->check(named_file);
     command.footer(
         "Names in the .inp file, of Face3 for example: Face3 its nodes (*BOUNDARY, *CLOAD), Face3_Surface its surface (*DSLOAD, *DFLUX, *TIE,\n"
         "*CONTACT PAIR, *SECTION PRINT), Face3_Elements the elements at it, Face3_S4 those whose side S4 is on it (*FILM: Face3_S4, F4, ...). Edge5 and\n"
@@ -205,7 +208,7 @@ struct HexCommand {
         ->check(CLI::Range(0.0, 1e6));
     command.add_option("--min-layers", min_layers, "Elements through every wall at least")->capture_default_str()->check(CLI::Range(1, 1000));
     command.add_flag("--subdivide", subdivide, "Subdivide the coarsest mesh to this scale: its cells are the blocks");
-    command.add_option("--report", report, "Write a report as JSON");
+    command.add_option("--report", report, "Write a report as JSON")->check(named_file);
     command.add_option("--problem", problem, "Write the quantization problem as JSON, to compare solvers");
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
   }

@@ -35,7 +35,8 @@ volatile std::sig_atomic_t g_stops = 0;
 
 extern "C" void on_stop(int) { g_stops = g_stops + 1; }
 
-constexpr std::array kStops{SIGINT, SIGTERM, SIGHUP};
+// From the keyboard, the terminal, a batch system, its limit of processor time, an alarm clock.
+constexpr std::array kStops{SIGINT, SIGQUIT, SIGHUP, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM};
 
 /// Memory that the two processes share.
 class SharedNote {

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "core/error.h"
+
 namespace polycube {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/error.h"
 #include "pad/topology.h"
 #include "pipeline/circles.h"
 

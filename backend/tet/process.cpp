@@ -19,6 +19,9 @@
 #include <thread>
 #include <vector>
 
+#include "core/error.h"
+#include "tet/worker/protocol.h"
+
 extern char** environ;
 
 namespace polycube {
@@ -77,6 +80,8 @@ pid_t spawn(const std::vector<std::string>& command, const std::string& error_fi
 
 std::string outcome(int status, const std::string& error_file) {
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return "";
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kCannotWrite)
+    throw StageFailed("tet", "the tetrahedra cannot be written: the folder for temporary files (TMPDIR) is full or must not grow");
   if (WIFSIGNALED(status)) return "Gmsh died of signal " + std::to_string(WTERMSIG(status));
   std::string line;
   std::ifstream in(error_file);

@@ -13,7 +13,8 @@ namespace polycube {
 std::string find_worker();
 
 /// Runs a program to its end. Returns an empty line if it ended with status 0, else what happened ("ran longer than 30 s", "died of signal
-/// 11", its own words). Throws Cancelled when the monitor says so; the program never outlives the call.
+/// 11", its own words). Throws Cancelled when the monitor says so, StageFailed where it ended
+/// with kCannotWrite; the program never outlives the call.
 std::string run_worker(const std::vector<std::string>& command, const std::string& error_file, double seconds, const Monitor& monitor);
 
 }  // namespace polycube

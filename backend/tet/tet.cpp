@@ -89,7 +89,9 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
   monitor.progress("tet", 0);
   const TemporaryFolder folder;
   const std::string part = folder.file("part.brep"), setting = folder.file("setting"), result = folder.file("mesh"), errors = folder.file("errors");
-  std::ofstream(part) << model.to_brep();
+  std::ofstream part_file(part);
+  part_file << model.to_brep();
+  if (!part_file.flush()) throw StageFailed("tet", "the part cannot be written for Gmsh: the folder for temporary files (TMPDIR) is full or must not grow");
   const std::string worker = find_worker();
   std::string reason;
   std::vector<CadRef> entities;

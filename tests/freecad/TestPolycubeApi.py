@@ -3,6 +3,8 @@
 import json
 import math
 import os
+import signal
+import subprocess
 import tempfile
 import unittest
 from fractions import Fraction
@@ -75,7 +77,7 @@ class MeshArrays(unittest.TestCase):
         self.assertEqual(len(result.hexes), len(self.result.hexes))
 
     def test_first_order(self):
-        result = polycube.mesh(Part.makeBox(40, 20, 10), size=5, order=1)
+        result = polycube.mesh(Part.makeBox(40, 20, 10), size=5, order=1, min_layers=2)
         self.assertEqual(result.hexes.shape, (len(self.result.hexes), 8))
         self.assertEqual(result.quads.shape[1], 4)
 
@@ -157,7 +159,7 @@ class Options(unittest.TestCase):
 
     def test_a_quantity_of_another_kind_is_refused(self):
         lengths = [option["name"] for option in polycube.options() if option["unit"] == "mm"]
-        self.assertEqual(sorted(lengths), ["size", "sizes"])
+        self.assertEqual(sorted(lengths), ["max_size", "size", "sizes"])
         box = Part.makeBox(10, 10, 10)
         for option, value, message in (
             ("size", "5 kg", "size: 5.0 kg is not a length"),
@@ -183,11 +185,22 @@ class Options(unittest.TestCase):
             plain = self.plain(labels={three: "+X"}, sizes={three: 1}, keep_faces={three})
             self.assertEqual(plain, {"labels": {"Face3": "+X"}, "sizes": {"Face3": 1}, "keep_faces": ["Face3"]})
 
+    def test_a_killed_mesher_is_told_with_its_stage(self):
+        def kill(stage, _):
+            if stage == "tet":
+                children = subprocess.run(["pgrep", "-P", str(os.getpid())], capture_output=True, text=True).stdout.split()
+                for child in children:
+                    os.kill(int(child), signal.SIGSEGV)
+
+        with self.assertRaisesRegex(polycube.StageFailed, r"ended by signal 11 \(SIGSEGV\)") as caught:
+            polycube.mesh(Part.makeBox(10, 10, 10), size=0.5, progress=kill)
+        self.assertEqual(caught.exception.stage, "tet")
+
     def test_a_name_is_one_name_and_given_once(self):
         for option, value in (("sizes", 1), ("divisions", 2), ("labels", "+X")):
             with self.subTest(option):
                 self.assertEqual(list(self.plain(**{option: {" Face3 ": value}})[option]), ["Face3"])
-                with self.assertRaisesRegex(polycube.InvalidInput, option + ": Face3 is given twice"):
+                with self.assertRaisesRegex(polycube.InvalidInput, option + (" is not edges" if option == "divisions" else ": Face3 is given twice")):
                     self.plain(**{option: {3: value, "Face3": value}})
                 for name in ("Face3=2,X", "Face3,X", "Face3=2", True, None, 3.0):
                     with self.assertRaisesRegex(polycube.InvalidInput, option + " is not (faces|edges)"):
@@ -231,7 +244,7 @@ class Options(unittest.TestCase):
         self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
         box = document.addObject("Part::Box", "Box")
         document.recompute()
-        obj = polycube.create_fem_mesh(box, size="5", order="1", time_limit="100", sew="true")
+        obj = polycube.create_fem_mesh(box, size="5", order="1", time_limit="100", sew="true", min_layers="1")
         self.assertEqual((obj.CharacteristicLengthMax.Value, obj.ElementOrder, obj.TimeLimit, obj.Sew), (5, "1st", 100, True))
         self.assertEqual(obj.Hexahedra, 8)
 
@@ -698,7 +711,7 @@ class Helpers(unittest.TestCase):
         with job.Job(Part.makeBox(1, 1, 1), {}) as work:
             with self.assertRaises(polycube.StageFailed) as caught:
                 work.finish(-11, "some text\nSegmentation fault\n")
-        self.assertIn("-11", str(caught.exception))
+        self.assertIn("signal 11 (SIGSEGV)", str(caught.exception))
         self.assertIn("Segmentation fault", str(caught.exception))
 
     def test_a_failed_stage_says_where(self):

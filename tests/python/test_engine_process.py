@@ -4,6 +4,7 @@ A stand-in for the program that makes tetrahedra does to the engine what a bug w
 """
 
 import os
+import resource
 import signal
 import stat
 import subprocess
@@ -60,6 +61,30 @@ class EngineProcess(FolderTest):
         process.send_signal(signal.SIGINT)
         process.send_signal(signal.SIGTERM)
         self.ends(process, 3, "cancelled")
+
+    def test_signals_of_keyboards_and_batch_systems_cancel(self):
+        for name in ("INT", "QUIT", "HUP", "TERM", "USR1", "USR2", "XCPU", "ALRM"):
+            with self.subTest(name):
+                process = self.start("touch {}".format(self.path("begun")))
+                self.wait_for(process, "begun")
+                os.remove(self.path("begun"))
+                process.send_signal(getattr(signal, "SIG" + name))
+                self.ends(process, 3, "cancelled")
+
+    def test_a_full_temporary_folder_is_told_at_once(self):
+        """The limit on the size of files stands for the space: the part is below it, the tetrahedra are not."""
+        part = self.save(box())
+        limit = 50000
+        self.assertLess(os.path.getsize(part), limit)
+        run = subprocess.run(
+            [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--size", "0.5"],
+            capture_output=True,
+            text=True,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)),
+        )
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertRegex(run.stderr, r"\Apolycube: stage tet: the tetrahedra cannot be written: the folder for temporary files \(TMPDIR\)[^\n]*\n\Z")
+        self.assertFalse(os.path.exists(self.path("a.inp")))
 
     def test_the_engine_ends_with_a_parent_that_is_killed(self):
         process = self.start("echo $PPID > {0}.new; mv {0}.new {0}".format(self.path("pid")))

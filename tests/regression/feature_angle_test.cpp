@@ -42,7 +42,7 @@ TEST_F(RoundedBox, IsOnePatchWithoutItsSmoothEdges) {
   EXPECT_EQ(c.edges_captured + c.faces_captured + c.vertices_captured, 0);
   EXPECT_TRUE(c.lost_edges.empty() && c.lost_faces.empty() && c.lost_vertices.empty());
   ASSERT_EQ(result.report.warnings.size(), 1u);
-  EXPECT_NE(result.report.warnings[0].find(" and 20 more share their mesh faces"), std::string::npos) << result.report.warnings[0];
+  EXPECT_NE(result.report.warnings[0].find(" and 20 more are one surface to the mesh"), std::string::npos) << result.report.warnings[0];
 }
 
 TEST_F(RoundedBox, KeepsTheFacesAskedFor) {

@@ -372,7 +372,7 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
     std::string faces;
     for (std::size_t i = 0; i < std::min(patch.size(), kNamed); ++i) faces += (i == 0 ? "" : ", ") + name({2, patch[i]});
     if (patch.size() > kNamed) faces += " and " + std::to_string(patch.size() - kNamed) + " more";
-    r.warnings.push_back(faces + " share their mesh faces, as the feature angle asks: a load on one of them acts on all");
+    r.warnings.push_back(faces + " are one surface to the mesh, as the feature angle asks: the borders of their mesh faces are off the CAD edges between them, and their areas differ from the CAD's");
   }
   return result;
 }

@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -95,7 +96,11 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
     gmsh::logger::getLastError(error);
     throw std::runtime_error(error.empty() ? "Gmsh made no tetrahedra" : "Gmsh: " + error);
   }
-  write_raw(mesh, output);
+  try {
+    write_raw(mesh, output);
+  } catch (const std::runtime_error&) {
+    std::_Exit(kCannotWrite);
+  }
 }
 
 }  // namespace
@@ -104,6 +109,7 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
 int main(int argc, char** argv) {
   // Nobody else could stop a hanging attempt once the parent is gone.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written
   try {
     if (argc != 4) throw std::runtime_error("usage: polycube-tet PART.brep SETTING MESH");
     polycube::run(argv[1], polycube::read_setting(argv[2]), argv[3]);

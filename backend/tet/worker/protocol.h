@@ -9,6 +9,9 @@
 
 namespace polycube {
 
+/// Exit status of the worker where its mesh could not be written: no other setting would help.
+constexpr int kCannotWrite = 3;
+
 /// One rung of the ladder with its sizes.
 struct WorkerSetting {
   int surface_algorithm = 6;       ///< Gmsh's Mesh.Algorithm

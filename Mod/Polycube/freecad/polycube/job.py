@@ -32,6 +32,8 @@ class Job:
 
     def __init__(self, shape, options, what="mesh"):
         self.what = what
+        #: of the child, as far as it has told
+        self.stage = ""
         self._limit = options.get("time_limit")
         self._mesher = engine.find()
         self.folder = tempfile.mkdtemp(prefix="polycube-job-", dir=preferences.folder())
@@ -96,7 +98,16 @@ class Job:
             # The engine writes options as on the command line, --time-limit; here they are time_limit.
             raise _KINDS[found["kind"]](re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"]))
         reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
-        raise StageFailed("the meshing process ended unexpectedly (status {}): {}".format(status, reason))
+        if status < 0:
+            raise StageFailed("the mesher was ended by {}: {}".format(_signal_name(-status), reason), self.stage or "start", [])
+        raise StageFailed("the mesher ended unexpectedly (status {}): {}".format(status, reason), self.stage or "start", [])
+
+
+def _signal_name(number):
+    try:
+        return "signal {} ({})".format(number, signal.Signals(number).name)
+    except ValueError:
+        return "signal {}".format(number)
 
 
 def run(job, progress=None, log=None, cancel=None, idle=None):
@@ -117,8 +128,10 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
     try:
         for line in stdout.each(idle):
             kind, value = job.parse(line.rstrip("\n"))
-            if kind == "progress" and progress:
-                progress(*value)
+            if kind == "progress":
+                job.stage = value[0]
+                if progress:
+                    progress(*value)
             elif kind == "log" and log:
                 log(value)
         status = child.wait()

@@ -67,6 +67,8 @@ def _plain(option, value):
         if kind == "labels":
             return _by_name(name, {face: str(axis) for face, axis in value.items()})
         if kind in ("sizes", "divisions"):
+            if kind == "divisions" and any(isinstance(what, Integral) for what in value):
+                raise TypeError  # a number may be that of a face or of an edge
             return _by_name(name, {what: amount if isinstance(amount, str) and kind == "divisions" else _number(option, amount) for what, amount in value.items()})
         if kind == "faces":
             return [_face(face) for face in value]

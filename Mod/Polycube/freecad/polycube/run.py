@@ -69,7 +69,10 @@ class Run:
         self._out += bytes(self._process.readAllStandardOutput()).decode("utf-8", "replace")
         *lines, self._out = self._out.split("\n")
         for line in lines:
-            self._heard(*job.Job.parse(line))
+            kind, value = job.Job.parse(line)
+            if kind == "progress":
+                self.job.stage = value[0]
+            self._heard(kind, value)
 
     def _read_error(self):
         self._err = (self._err + bytes(self._process.readAllStandardError()).decode("utf-8", "replace"))[-4000:]
@@ -90,7 +93,7 @@ class Run:
         try:
             if self._reason:
                 raise Cancelled(self._reason)
-            made = self.job.finish(-1 if exit_status == QtCore.QProcess.CrashExit else status, self._err)
+            made = self.job.finish(-max(status, 1) if exit_status == QtCore.QProcess.CrashExit else status, self._err)
         except PolycubeError as caught:
             error = caught
         finally:

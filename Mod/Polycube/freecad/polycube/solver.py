@@ -105,7 +105,11 @@ def prepared(analysis, solver, folder):
     """FreeCAD's tools for CalculiX, with everything there that a run needs; InvalidInput says what is not."""
     if not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
         raise InvalidInput("an analysis is needed")
-    if not ccx.find():
+    try:
+        there = ccx.find()
+    except RuntimeError as error:
+        raise InvalidInput(str(error)) from None
+    if not there:
         raise InvalidInput(ccx.MISSING)
     solvers = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemSolverObject")]
     ours = [member for member in solvers if getattr(getattr(member, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"]

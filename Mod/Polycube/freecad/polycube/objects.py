@@ -25,6 +25,8 @@ _RESULTS = [
 ]
 #: what polycube.solve solves the mesh with: "Default", or one of deck.TYPES
 _ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
+#: property that documents do not have which are older than the bounds on counts
+_BOUND = "MeshSizeFromCurvature"
 _HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
 
 
@@ -164,9 +166,21 @@ class PolycubeMesh(Stateless):
 
     def onDocumentRestored(self, obj):
         try:
+            before_bounds, was_current = not hasattr(obj, _BOUND), obj.MeshState == CURRENT
             self._add_properties(obj)
+            if before_bounds:
+                _without_bounds(obj, was_current)
         except ImportError as error:
             FreeCAD.Console.PrintWarning("{}: {}\n".format(obj.Label, error))
+
+
+def _without_bounds(obj, was_current):
+    """Has an object of a document that is older than the bounds round circles and through walls mean what it meant: the size alone decides."""
+    setattr(obj, _BOUND, 0)
+    if obj.Report and not (obj.CharacteristicLengthMax.Value or obj.Hexes or obj.Coarsest):
+        obj.CharacteristicLengthMax = json.loads(obj.Report)["size"]  # it was a share of the diagonal
+    if was_current:
+        obj.MeshedOptions, obj.MeshState = _options_text(obj), CURRENT
 
 
 class _Moves:

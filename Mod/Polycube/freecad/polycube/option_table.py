@@ -194,6 +194,8 @@ def read(obj):
     """The object's options that are not at their default, by engine name."""
     found = {}
     for option in document_options():
+        if not hasattr(obj, property_name(option)):
+            continue  # of an older document that is being opened
         value = getattr(obj, property_name(option))
         if option["name"] == "order":
             value = _ORDERS.index(value) + 1

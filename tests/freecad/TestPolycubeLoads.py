@@ -142,7 +142,7 @@ class MechanicalLoads(LoadTest):
         """All nodes are on the two faces; the sides in between carry nothing."""
         part = self.part(Part.makeBox(20, 20, 2))
         analysis, _ = calculix.make_analysis(part, ["Face1"])
-        mesh = polycube.create_fem_mesh(part, size=5, order=1, analysis=analysis).FemMesh
+        mesh = polycube.create_fem_mesh(part, size=5, order=1, min_layers=1, analysis=analysis).FemMesh
         self.assertEqual(len(mesh.Volumes), len(self.group(mesh, "Face5")))
         self.add(analysis, "Pressure", part, "Face5", "Face6", Pressure=2.0)
         self.assertEqual(len(solver_tests.pressure_faces(self.written(analysis))), 2 * len(mesh.Volumes))

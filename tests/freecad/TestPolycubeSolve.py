@@ -61,7 +61,7 @@ class SolveTest(whole_loads.LoadTest):
     def solve(self, analysis, part, size=5, order=2, **options):
         """Every static case is in balance, but those with contact and ties."""
         if not any(member.isDerivedFrom("Fem::FemMeshObject") for member in analysis.Group):
-            polycube.create_fem_mesh(part, size=size, order=order, analysis=analysis)
+            polycube.create_fem_mesh(part, size=size, order=order, min_layers=1, analysis=analysis)
         self.document.recompute()
         solution = polycube.solve(analysis, folder=self.folder, **options)
         if solution.balance:

@@ -34,7 +34,8 @@ set(MOD ${CMAKE_INSTALL_DATADIR}/freecad/Mod/Polycube)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/Mod/Polycube/ DESTINATION ${MOD}
   PATTERN "*.so" EXCLUDE PATTERN "__pycache__" EXCLUDE PATTERN "LICENSE" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${MOD})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/resources/icons ${PROJECT_SOURCE_DIR}/resources/ui DESTINATION ${MOD}/freecad/polycube/resources)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/resources/icons ${PROJECT_SOURCE_DIR}/resources/ui ${PROJECT_SOURCE_DIR}/resources/translations
+  DESTINATION ${MOD}/freecad/polycube/resources PATTERN "*.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 
 # The manual page comes from what the program says of itself.

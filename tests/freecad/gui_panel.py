@@ -76,6 +76,16 @@ class Narrow(PanelTest):
                 self.dock = dock
 
     def test_nothing_is_cut_off(self):
+        self.check("English")
+
+    def test_nothing_is_cut_off_in_german(self):
+        self.addCleanup(FreeCADGui.setLocale, FreeCADGui.getLocale())
+        FreeCADGui.setLocale("German")
+        self.check("German")
+        self.assertEqual(fields.title({"name": "size"}), "Elementgröße")
+
+    def check(self, language):
+        """All sections open, with a mesh."""
         panel = self.meshed(5.0)
         self.assertLessEqual(self.dock.width(), 290)
         for section in (panel.axes, panel.refine, panel.advanced, panel.form.run.log_fold, panel.result):
@@ -83,7 +93,7 @@ class Narrow(PanelTest):
         panel.axes.labels = {"Face1": "-X"}
         panel.axes._list()
         process_events(0.3)
-        picture("narrow-top")
+        picture("narrow-top-" + language)
         area = self.area(panel)
         self.assertLessEqual(panel.form.minimumSizeHint().width(), 250)
         self.assertEqual(area.horizontalScrollBar().maximum(), 0, "wider than the dock")
@@ -100,7 +110,7 @@ class Narrow(PanelTest):
             self.assertLessEqual(button.mapToGlobal(QtCore.QPoint(button.width(), 0)).x(), right + 12, name)
             self.assertGreaterEqual(button.width(), QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width(), name)
         area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
-        picture("narrow-bottom")
+        picture("narrow-bottom-" + language)
         self.press("Ok")
 
     def area(self, panel):
@@ -486,7 +496,14 @@ class Preferences(PanelTest):
     def setUp(self):
         super().setUp()
         self.group = FreeCAD.ParamGet(preferences.GROUP)
-        self.addCleanup(lambda: [self.group.RemInt(name) for name in ("Threads", "ElementOrder", "Effort")] + [self.group.RemString("TemporaryFolder")])
+        self.addCleanup(self.forget)
+
+    def forget(self):
+        """Nothing stays for other tests, nor in the file to which the page has written it."""
+        for name in ("Threads", "ElementOrder", "Effort"):
+            self.group.RemInt(name)
+        self.group.RemString("TemporaryFolder")
+        FreeCAD.saveParameter()
 
     def test_the_page(self):
         folder = self.enterContext(tempfile.TemporaryDirectory())

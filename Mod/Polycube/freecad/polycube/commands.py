@@ -6,6 +6,7 @@ from PySide import QtCore, QtGui
 
 from . import analyses, api, macro, objects, resources, shapes
 from .errors import Cancelled, InvalidInput, PolycubeError
+from .words import tr
 
 
 class MeshFromShape:
@@ -16,8 +17,8 @@ class MeshFromShape:
     def GetResources(self):
         return {
             "Pixmap": resources.icon("Polycube_MeshFromShape"),
-            "MenuText": "Hexahedral mesh from shape",
-            "ToolTip": "Creates a FEM mesh of hexahedra from the selected solid",
+            "MenuText": tr("Hexahedral mesh from shape"),
+            "ToolTip": tr("Creates a FEM mesh of hexahedra from the selected solid"),
         }
 
     def IsActive(self):
@@ -58,8 +59,8 @@ class Solve:
     def GetResources(self):
         return {
             "Pixmap": resources.icon("Polycube_Solve"),
-            "MenuText": "Solve with CalculiX",
-            "ToolTip": "Solves the active analysis with every load on its hexahedra, by elements C3D20R (first order: C3D8I), and loads the results",
+            "MenuText": tr("Solve with CalculiX"),
+            "ToolTip": tr("Solves the active analysis with every load on its hexahedra, by elements C3D20R (first order: C3D8I), and loads the results"),
         }
 
     def IsActive(self):

@@ -4,17 +4,17 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from . import option_table
-from .words import tr
+from .words import noop, tr
 
 #: Names of options in the panel where the plain words of the option's name would not be those of the field.
 _TITLES = {
-    "size": "Element size",
-    "hexes": "Target cells",
-    "order": "Element order",
-    "min_layers": "Layers in walls",
-    "sew": "Sew faces",
-    "frame": "Directions of X, Y",
-    "sizes": "Local sizes",
+    "size": noop("Element size"),
+    "hexes": noop("Target cells"),
+    "order": noop("Element order"),
+    "min_layers": noop("Layers in walls"),
+    "sew": noop("Sew faces"),
+    "frame": noop("Directions of X, Y"),
+    "sizes": noop("Local sizes"),
 }
 _ORDERS = ["1st", "2nd"]
 _UNITS = {"mm": "mm", "degrees": "deg"}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy
 
 from . import engine
+from .words import noop
 
 #: A bar of a histogram is a tenth of goodness.
 BARS = 10
@@ -85,10 +86,10 @@ class Measure:
 
 
 MEASURES = [
-    Measure("scaled_jacobian", "Scaled Jacobian", scaled_jacobian, lambda value: value, lambda good: good),
-    Measure("edge_ratio", "Edge ratio", edge_ratio, lambda value: 1 / value, lambda good: 1 / good if good > 0 else float("inf")),
-    Measure("skew", "Skew", skew, lambda value: 1 - value, lambda good: 1 - good),
-    Measure("warpage", "Warpage", warpage, lambda value: 1 - value / 2, lambda good: 2 - 2 * good),
+    Measure("scaled_jacobian", noop("Scaled Jacobian"), scaled_jacobian, lambda value: value, lambda good: good),
+    Measure("edge_ratio", noop("Edge ratio"), edge_ratio, lambda value: 1 / value, lambda good: 1 / good if good > 0 else float("inf")),
+    Measure("skew", noop("Skew"), skew, lambda value: 1 - value, lambda good: 1 - good),
+    Measure("warpage", noop("Warpage"), warpage, lambda value: 1 - value / 2, lambda good: 2 - 2 * good),
 ]
 
 

@@ -5,6 +5,7 @@ import FreeCAD
 from . import compat, fem_mesh, option_table, shapes
 from .errors import InvalidInput
 from .stateless import Stateless
+from .words import noop
 
 _AXES = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 
@@ -21,12 +22,12 @@ _ELEMENTS = ("App::PropertyString", "Elements", "4", "Number of elements: 6 exac
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("size", "Local size", "Another edge length at faces", "sizes", "Face", ("App::PropertyLength", "Size", 0.0, "Edge length")),
-        Kind("divisions", "Divisions", "Number of elements along edges", "divisions", "Edge", _ELEMENTS),
-        Kind("layers", "Layers", "Number of elements between two opposite faces", "divisions", "Face", _ELEMENTS, 2),
-        Kind("bore", "Elements round a bore", "Number of elements round cylindrical faces", "divisions", "Face", _ELEMENTS),
-        Kind("keep", "Faces to keep", "Faces none of whose edges is ignored", "keep_faces", "Face", None),
-        Kind("axis", "Axis of faces", "The axis that faces take in the blocks", "labels", "Face", ("App::PropertyEnumeration", "Axis", _AXES, "Axis")),
+        Kind("size", noop("Local size"), noop("Another edge length at faces"), "sizes", "Face", ("App::PropertyLength", "Size", 0.0, "Edge length")),
+        Kind("divisions", noop("Divisions"), noop("Number of elements along edges"), "divisions", "Edge", _ELEMENTS),
+        Kind("layers", noop("Layers"), noop("Number of elements between two opposite faces"), "divisions", "Face", _ELEMENTS, 2),
+        Kind("bore", noop("Elements round a bore"), noop("Number of elements round cylindrical faces"), "divisions", "Face", _ELEMENTS),
+        Kind("keep", noop("Faces to keep"), noop("Faces none of whose edges is ignored"), "keep_faces", "Face", None),
+        Kind("axis", noop("Axis of faces"), noop("The axis that faces take in the blocks"), "labels", "Face", ("App::PropertyEnumeration", "Axis", _AXES, "Axis")),
     )
 }
 

@@ -9,7 +9,7 @@ from .cell_view import CellOverlay, Hidden, zoom
 from .folding import Section
 from .histogram import Histogram
 from .measures import BARS, MEASURES, Cells
-from .words import count, tr
+from .words import count, noop, tr
 
 #: Cells in the list of the worst.
 _WORST = 20
@@ -108,7 +108,7 @@ class ResultSection(Section):
         others = [measure for measure in MEASURES[1:] if measure.name in quality]  # documents of older versions have none
         if others:
             lines.append(tr("Worst cells: ") + ", ".join("{} {:.2f}".format(tr(one.title).lower(), quality[one.name]["max"]) for one in others))
-        captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in ("faces", "edges", "vertices"))
+        captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in (noop("faces"), noop("edges"), noop("vertices")))
         lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
         self.summary.setText("\n".join(lines))
         self._tools.setEnabled(True)

@@ -6,20 +6,20 @@ import re
 from PySide import QtCore, QtGui
 
 from .folding import Section
-from .words import tr
+from .words import noop, tr
 
 #: The mesher's stages, in the order of a mesh.
 _STAGES = {
-    "cad": "Reading the part",
-    "tet": "Filling the part with tetrahedra",
-    "label": "Choosing axes of faces",
-    "deform": "Straightening the part into blocks",
-    "blocks": "Finding the blocks",
-    "quantize": "Choosing numbers of cells",
-    "hex": "Making hexahedra",
-    "pad": "Adding layers where faces meet",
-    "fit": "Moving nodes onto the CAD",
-    "fem": "Making elements",
+    "cad": noop("Reading the part"),
+    "tet": noop("Filling the part with tetrahedra"),
+    "label": noop("Choosing axes of faces"),
+    "deform": noop("Straightening the part into blocks"),
+    "blocks": noop("Finding the blocks"),
+    "quantize": noop("Choosing numbers of cells"),
+    "hex": noop("Making hexahedra"),
+    "pad": noop("Adding layers where faces meet"),
+    "fit": noop("Moving nodes onto the CAD"),
+    "fem": noop("Making elements"),
 }
 #: As backend/pipeline/search writes it: "plan 2, 'name', 3 fits done, best: 'name', 4 CAD edges lost, min SJ 0.31" or "..., no mesh yet"
 _PLAN = re.compile(r"plan (\d+), '.*', \d+ fits done, (?:best: '.*', (\d+) CAD edges lost, min SJ (\S+)|no mesh yet)$")

@@ -17,17 +17,17 @@ from .refine_section import RefineSection
 from .result_section import ResultSection
 from .run import Run
 from .run_section import RunSection
-from .words import count, tr
+from .words import count, noop, tr
 
-_TITLE = "Hexahedral mesh"
+_TITLE = noop("Hexahedral mesh")
 #: What may help where a stage fails, by the stage.
 _TRY = {
-    "label": "Try other axes of faces, or another frame.",
-    "deform": "Try other axes of faces, or a finer size.",
-    "quantize": "Try without one of the demands that are named.",
-    "fit": "Try a finer size, more effort, or give up smooth edges (Feature angle).",
+    "label": noop("Try other axes of faces, or another frame."),
+    "deform": noop("Try other axes of faces, or a finer size."),
+    "quantize": noop("Try without one of the demands that are named."),
+    "fit": noop("Try a finer size, more effort, or give up smooth edges (Feature angle)."),
 }
-_TRY_ELSE = "Try a finer size, more effort, or other axes of faces."
+_TRY_ELSE = noop("Try a finer size, more effort, or other axes of faces.")
 
 
 def _exists(obj):

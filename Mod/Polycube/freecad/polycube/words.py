@@ -1,11 +1,44 @@
-"""Words of the window: translated, and numbers as people read them."""
+"""Words of the window: translated, and numbers as people read them.
 
-from PySide import QtCore
+Translations are Qt's files resources/translations/polycube_LANGUAGE.ts, read as they are; resources/translations/update.py brings them up to date.
+"""
+
+from functools import lru_cache
+from xml.etree import ElementTree
+
+from . import resources
+
+
+def noop(text):
+    """Marks text of a table for translation; tr() translates it where it is shown."""
+    return text
 
 
 def tr(text):
     """The text in FreeCAD's language, where there is a translation."""
-    return QtCore.QCoreApplication.translate("Polycube", text)
+    return _catalogue(_language()).get(text, text)
+
+
+def _language():
+    """As "de", of the window; empty where there is none."""
+    import FreeCAD
+
+    if not FreeCAD.GuiUp:
+        return ""
+    import FreeCADGui
+
+    return FreeCADGui.supportedLocales().get(FreeCADGui.getLocale(), "")
+
+
+@lru_cache(maxsize=None)
+def _catalogue(language):
+    """{text: translation} of what is translated into a language."""
+    try:
+        path = resources.path("translations", "polycube_{}.ts".format(language))
+    except FileNotFoundError:
+        return {}
+    pairs = ((message.findtext("source"), message.find("translation")) for message in ElementTree.parse(path).iter("message"))
+    return {source: told.text for source, told in pairs if told is not None and told.text and told.get("type") is None}
 
 
 def count(number):

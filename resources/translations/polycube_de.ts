@@ -240,6 +240,18 @@
       <translation>Die Achse, die Flächen in den Blöcken haben</translation>
     </message>
     <message>
+      <source>edge ratio</source>
+      <translation>Kantenverhältnis</translation>
+    </message>
+    <message>
+      <source>skew</source>
+      <translation>Schiefe</translation>
+    </message>
+    <message>
+      <source>warpage</source>
+      <translation>Verwindung</translation>
+    </message>
+    <message>
       <source>Result</source>
       <translation>Ergebnis</translation>
     </message>
@@ -404,8 +416,8 @@
       <translation>Protokoll des Vernetzers</translation>
     </message>
     <message>
-      <source>Trying layout {}: {}</source>
-      <translation>Versuch mit Aufteilung {}: {}</translation>
+      <source>Layout {}: {}</source>
+      <translation>Aufteilung {}: {}</translation>
     </message>
     <message>
       <source>all CAD edges</source>

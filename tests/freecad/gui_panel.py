@@ -569,7 +569,7 @@ class Words(PanelTest):
         self.assertEqual(run.status.text(), "Filling the part with tetrahedra ...")
         run.hear("plan 2, 'finer', 3 fits done, best: 'first', 2 CAD edges lost, min SJ 0.31")
         run.show_progress("fit", 0.5)
-        self.assertEqual(run.status.text(), "Trying layout 2: moving nodes onto the CAD ...\nBest so far: valid, all but 2 CAD edges, worst cell 0.31")
+        self.assertEqual(run.status.text(), "Layout 2: Moving nodes onto the CAD ...\nBest so far: valid, all but 2 CAD edges, worst cell 0.31")
         run.hear("plan 3, 'else', 3 fits done, no mesh yet")
         run.show_progress("new stage", 0.1)
         self.assertTrue(run.best.isVisibleTo(run))

@@ -13,6 +13,8 @@ from .words import count, noop, tr
 
 #: Cells in the list of the worst.
 _WORST = 20
+#: Measures within a line.
+_IN_A_LINE = {"edge_ratio": noop("edge ratio"), "skew": noop("skew"), "warpage": noop("warpage")}
 _RED = (0.86, 0.08, 0.12)
 
 
@@ -107,7 +109,7 @@ class ResultSection(Section):
         lines.append(tr("Scaled Jacobian: min {:.3f}, mean {:.3f}").format(quality["min_scaled_jacobian"], quality["mean_scaled_jacobian"]))
         others = [measure for measure in MEASURES[1:] if measure.name in quality]  # documents of older versions have none
         if others:
-            lines.append(tr("Worst cells: ") + ", ".join("{} {:.2f}".format(tr(one.title).lower(), quality[one.name]["max"]) for one in others))
+            lines.append(tr("Worst cells: ") + ", ".join("{} {:.2f}".format(tr(_IN_A_LINE[one.name]), quality[one.name]["max"]) for one in others))
         captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in (noop("faces"), noop("edges"), noop("vertices")))
         lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
         self.summary.setText("\n".join(lines))

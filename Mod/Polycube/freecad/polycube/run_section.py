@@ -85,7 +85,7 @@ class RunSection(QtGui.QWidget):
         self.progress.setValue(round(100 * fraction))
         words = tr(_STAGES[stage]) if stage in _STAGES else stage
         if self._layout_number > 1 or self._found:
-            words = tr("Trying layout {}: {}").format(self._layout_number, words[0].lower() + words[1:])
+            words = tr("Layout {}: {}").format(self._layout_number, words)
         self.tell(words + " ..." + ("\n" + self._found if self._found else ""))
 
     def hear(self, line):

@@ -66,6 +66,7 @@ class MeshPanel:
         self.result.show_mesh()
         self.changed()
         FreeCAD.addDocumentObserver(self)
+        QtCore.QTimer.singleShot(0, _narrow_buttons)
 
     def _make_form(self):
         form = QtGui.QWidget()
@@ -144,13 +145,6 @@ class MeshPanel:
 
     def getStandardButtons(self):
         return qt_number(QtGui.QDialogButtonBox.Ok | QtGui.QDialogButtonBox.Apply | QtGui.QDialogButtonBox.Cancel)
-
-    def modifyStandardButtons(self, box):
-        """Three buttons of FreeCAD's width, with icons, are wider than the dock as it opens it: they may shrink to their text."""
-        for button in box.buttons():
-            button.setIcon(QtGui.QIcon())
-            button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
-            button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
 
     def clicked(self, button):
         if qt_number(button) == qt_number(QtGui.QDialogButtonBox.Apply):
@@ -501,6 +495,20 @@ class MeshPanel:
         for form in self._forms:
             found.update(form.values())
         return found
+
+
+def _narrow_buttons():
+    """OK, Cancel and Apply of FreeCAD's width, with icons, are wider than the dock as it opens it: they may shrink to their text.
+
+    FreeCAD would hand the box to `modifyStandardButtons`, but as what PySide does not notice the end of; see MeshPanel.
+    """
+    for box in FreeCADGui.getMainWindow().findChildren(QtGui.QDialogButtonBox):
+        if not box.isVisible() or not box.button(QtGui.QDialogButtonBox.Apply):
+            continue
+        for button in box.buttons():
+            button.setIcon(QtGui.QIcon())
+            button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
+            button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
 
 
 def _rounded(number):

@@ -96,6 +96,14 @@
       <translation>Lagen in Wänden</translation>
     </message>
     <message>
+      <source>Round circles</source>
+      <translation>Um Kreise</translation>
+    </message>
+    <message>
+      <source>Largest size</source>
+      <translation>Größte Länge</translation>
+    </message>
+    <message>
       <source>Sew faces</source>
       <translation>Flächen vernähen</translation>
     </message>
@@ -528,8 +536,8 @@
       <translation>Netz übernehmen</translation>
     </message>
     <message>
-      <source>0 is automatic: {}</source>
-      <translation>0 ist automatisch: {}</translation>
+      <source>0 is automatic: {} at most</source>
+      <translation>0 ist automatisch: höchstens {}</translation>
     </message>
     <message>
       <source>about {} cells</source>
@@ -544,8 +552,8 @@
       <translation>Abbrechen</translation>
     </message>
     <message>
-      <source>Edge length of the hexahedra. Default: bounding-box diagonal / 30.</source>
-      <translation>Kantenlänge der Hexaeder. Ohne Angabe: Diagonale der Hüllbox / 30.</translation>
+      <source>Edge length of the hexahedra. Default: by the part, bounding-box diagonal / 15 at most.</source>
+      <translation>Kantenlänge der Hexaeder. Ohne Angabe: nach dem Bauteil, höchstens Diagonale der Hüllbox / 15.</translation>
     </message>
     <message>
       <source>Hexes</source>
@@ -624,8 +632,24 @@
       <translation>Lagen mindestens</translation>
     </message>
     <message>
-      <source>Elements through every wall at least.</source>
-      <translation>Elemente durch jede Wand, mindestens.</translation>
+      <source>Elements through every wall at least. Default: 2 of second order, 3 of first.</source>
+      <translation>Elemente durch jede Wand, mindestens. Ohne Angabe: 2 in zweiter Ordnung, 3 in erster.</translation>
+    </message>
+    <message>
+      <source>Per circle</source>
+      <translation>Um Kreise</translation>
+    </message>
+    <message>
+      <source>Elements round every full circle at least, arcs in proportion. 0: as the size has it.</source>
+      <translation>Elemente um jeden vollen Kreis, mindestens, Bögen im Verhältnis. 0: nach der Größe.</translation>
+    </message>
+    <message>
+      <source>Max size</source>
+      <translation>Größte Länge</translation>
+    </message>
+    <message>
+      <source>Edge length that no hexahedron is to exceed. Default: bounding-box diagonal / 15 where no size is given.</source>
+      <translation>Kantenlänge, die kein Hexaeder überschreiten soll. Ohne Angabe: Diagonale der Hüllbox / 15, wo keine Größe angegeben ist.</translation>
     </message>
     <message>
       <source>Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.</source>

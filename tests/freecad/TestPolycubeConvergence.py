@@ -111,5 +111,5 @@ class Series(solve_tests.SolveTest):
     def test_sizes_go_together(self):
         part, analysis = self.bar("Face1")
         obj = polycube.create_fem_mesh(part, hexes=256, sizes={"Face2": 1.25}, analysis=analysis)
-        sizes = [(round(options["size"], 6), round(options["sizes"]["Face2"], 6)) for options in convergence._options(obj, 3)]
+        sizes = [(round(options["size"], 6), round(options["sizes"]["Face2"], 6)) for options, _ in convergence._options(obj, 3)]
         self.assertEqual(sizes, [(round(2.5 * factor, 6), round(1.25 * factor, 6)) for factor in (2**0.5, 1, 0.5**0.5)])

@@ -96,6 +96,16 @@ class Prediction(unittest.TestCase):
                     cells = len(polycube.mesh(shape, order=1, **options).hexes)
                     self.assertAlmostEqual(prediction.predict(shape, options).cells / cells, 1, delta=0.35)
 
+    def test_after_a_first_mesh(self):
+        """Cylinders get layers of their own, which their shape does not tell."""
+        for shape in (Part.makeCylinder(10, 40), Part.makeCylinder(20, 40).cut(Part.makeCylinder(15, 40)), Part.makeBox(40, 20, 10)):
+            first = {"size": shape.BoundBox.DiagonalLength / 25}
+            cells = len(polycube.mesh(shape, order=1, **first).hexes)
+            for options in ({"size": first["size"] / 1.5}, {"hexes": 4 * cells}, first):
+                with self.subTest(volume=shape.Volume, options=options):
+                    expected = prediction.predict_again(shape, {"order": 1, **options}, {"order": 1, **first}, cells).cells
+                    self.assertAlmostEqual(expected / len(polycube.mesh(shape, order=1, **options).hexes), 1, delta=0.5)
+
     def test_local_sizes_go_through_the_part(self):
         """A count that surprises is told; it is one for blocks through the whole part, so the mesh has less or as many."""
         shape = Part.makeBox(40, 20, 10)

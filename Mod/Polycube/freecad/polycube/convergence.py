@@ -8,7 +8,7 @@ import textwrap
 
 import FreeCAD
 
-from . import api, objects, option_table, shapes, solver
+from . import api, objects, option_table, refinements, shapes, solver
 from .errors import InvalidInput
 
 #: from one size to the next: twice as many cells and a half, and three sizes span nearly a factor of two
@@ -101,10 +101,13 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
     (mesh,) = meshes
     measure, name = _measure(quantity, mesh)
     series, rows = list(_options(mesh, sizes)), []
+    local = refinements.local_sizes(mesh)
     folder = solver.prepared(analysis, solver_object, folder).working_dir  # one for all sizes
     with api.transaction(analysis.Document, "Convergence series"):
-        for options in series:
+        for options, finer in series:
             option_table.write(mesh, options)
+            for refinement, size in local.items():
+                refinement.Size = size * finer
             api.update_fem_mesh(mesh, cancel=cancel)
             solution = solver.solve(analysis, element, solver_object, folder, log, cancel)
             row = {"size": options["size"], "cells": mesh.Hexahedra, "nodes": mesh.NodeCount, "value": measure(solution.result), "seconds": solution.seconds}
@@ -120,7 +123,9 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
 
 
 def _options(mesh, sizes):
-    """The mesh's options with each size, coarse to fine; sizes on faces and elements round circles and through walls go with it."""
+    """The mesh's options with each size, coarse to fine, and what share of the present size that is; sizes on faces and elements round circles and through
+    walls go with it.
+    """
     options = option_table.read(mesh)
     hexes = options.pop("hexes", None)
     shape = shapes.shape_of(objects.part_of(mesh), beside=mesh)
@@ -141,7 +146,7 @@ def _options(mesh, sizes):
         if options.get("sizes"):
             pairs = (pair.split("=") for pair in options["sizes"].split(","))
             found["sizes"] = {what: float(amount) * size / now for what, amount in pairs}
-        yield found
+        yield found, size / now
 
 
 def _measure(quantity, mesh):

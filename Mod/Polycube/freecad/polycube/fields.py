@@ -12,6 +12,8 @@ _TITLES = {
     "hexes": noop("Target cells"),
     "order": noop("Element order"),
     "min_layers": noop("Layers in walls"),
+    "per_circle": noop("Round circles"),
+    "max_size": noop("Largest size"),
     "sew": noop("Sew faces"),
     "frame": noop("Directions of X, Y"),
     "sizes": noop("Local sizes"),

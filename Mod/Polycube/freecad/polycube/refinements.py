@@ -155,6 +155,12 @@ def fault(obj):
     return ""
 
 
+def local_sizes(mesh):
+    """{refinement: size in mm} of the local sizes that a mesh object obeys."""
+    obeyed = [obj for obj in getattr(mesh, "Refinements", ()) if is_refinement(obj) and obj.Kind == "size" and not obj.Suppressed]
+    return {obj: obj.Size.Value for obj in obeyed}
+
+
 def with_refinements(options, mesh):
     """The options, with what the refinements of a mesh object ask for besides. InvalidInput names a faulty one."""
     asked = [obj for obj in getattr(mesh, "Refinements", ()) if obj is not None and is_refinement(obj) and not obj.Suppressed]

@@ -1,5 +1,6 @@
 """The task panel: options by task, the mesher in a child process, and what came out."""
 
+import json
 import time
 import traceback
 
@@ -472,7 +473,7 @@ class MeshPanel:
             if shape.isNull():
                 return
             automatic = FreeCAD.Units.Quantity(prediction.size_of(shape, {}), FreeCAD.Units.Length).UserString
-            lines = [tr("0 is automatic: {}").format(automatic)]
+            lines = [tr("0 is automatic: {} at most").format(automatic)]
             expected = self._prediction(refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None))
         except InvalidInput:  # Apply tells
             return
@@ -484,10 +485,15 @@ class MeshPanel:
         self.form.size_hint.setText("\n".join(lines))
 
     def _prediction(self, options):
+        if not self.part_exists():
+            return None
         try:
-            return prediction.predict(shapes.shape_of(self.part), options) if self.part_exists() else None
+            shape = shapes.shape_of(self.part)
         except InvalidInput:
             return None
+        if self.mesh_exists() and self.obj.Hexahedra and objects.shape_is_meshed(self.obj):
+            return prediction.predict_again(shape, options, json.loads(self.obj.MeshedOptions), self.obj.Hexahedra)
+        return prediction.predict(shape, options)
 
     def _parameters(self):
         """The options as the panel shows them, without defaults. InvalidInput for what cannot be read."""

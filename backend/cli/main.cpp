@@ -40,11 +40,12 @@ class OptionArguments {
         argument.parsed = command.add_flag(on ? flag + ",!--no-" + flag.substr(2) : flag, option.meaning);
       } else {
         argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
-        const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "faces";
+        const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "bias" || type == "faces";
         if (list) argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         argument.parsed->type_name(type == "labels"      ? "Face3=+X"
                                    : type == "divisions" ? "Edge4=6"
                                    : type == "sizes"     ? "Face3=mm"
+                                   : type == "bias"      ? "Edge4=ratio"
                                    : type == "faces"     ? "Face3"
                                                          : type_name(option));
       }

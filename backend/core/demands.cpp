@@ -13,6 +13,8 @@ namespace polycube {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
+// Ratio of the last cell to the first along an edge: beyond it is a slip of the pen.
+constexpr double kSteepest = 1000;
 
 template <class Number>
 std::optional<Number> number(std::string_view text) {
@@ -55,6 +57,12 @@ void for_items(const std::string& flag, const std::string& text, const char* for
 }
 
 std::string face_name(int id) { return "Face" + std::to_string(id); }
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
 
 }  // namespace
 
@@ -120,6 +128,22 @@ LocalSizes parse_local_sizes(const std::string& flag, const std::string& text) {
   return result;
 }
 
+EdgeBiases parse_biases(const std::string& flag, const std::string& text) {
+  EdgeBiases result;
+  for_items(flag, text, "Edge4=2.0", [&](std::string_view what, std::string_view value) {
+    const auto edge = entity(what, "Edge");
+    const auto ratio = number<double>(value);
+    if (!edge || !ratio || !std::isfinite(*ratio)) return false;
+    if (!(*ratio >= 1 / kSteepest && *ratio <= kSteepest)) throw InvalidInput(flag + ": the ratio of " + std::string(what) + " must be from 0.001 to 1000");
+    for (const EdgeBias& other : result) {
+      if (other.edge == *edge) throw InvalidInput(flag + ": " + std::string(what) + " is given twice");
+    }
+    result.push_back({*edge, *ratio});
+    return true;
+  });
+  return result;
+}
+
 FaceList parse_faces(const std::string& flag, const std::string& text) {
   FaceList faces;
   std::string dense = text;
@@ -142,10 +166,8 @@ std::string text_of(const Division& d) {
   return what + "=" + (d.at_least > 1 ? std::to_string(d.at_least) : "") + ".." + std::to_string(d.at_most);
 }
 
-std::string text_of(const LocalSize& s) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, s.size).ptr;
-  return (s.face > 0 ? face_name(s.face) : std::string(1, kAxes[static_cast<std::size_t>(s.axis)])) + "=" + std::string(buffer, end);
-}
+std::string text_of(const LocalSize& s) { return (s.face > 0 ? face_name(s.face) : std::string(1, kAxes[static_cast<std::size_t>(s.axis)])) + "=" + number_text(s.size); }
+
+std::string text_of(const EdgeBias& b) { return "Edge" + std::to_string(b.edge) + "=" + number_text(b.ratio); }
 
 }  // namespace polycube

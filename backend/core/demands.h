@@ -25,10 +25,18 @@ struct LocalSize {
   friend bool operator==(const LocalSize&, const LocalSize&) = default;
 };
 
+/// Cells along a CAD edge that grow from its start to its end.
+struct EdgeBias {
+  int edge = 0;
+  double ratio = 1;  ///< of the last cell's length to the first's
+  friend bool operator==(const EdgeBias&, const EdgeBias&) = default;
+};
+
 /// CAD faces, ascending, each once.
 using FaceList = std::vector<int>;
 using Divisions = std::vector<Division>;
 using LocalSizes = std::vector<LocalSize>;
+using EdgeBiases = std::vector<EdgeBias>;
 
 /// From text such as "Edge4=6,Face1-Face2=3..,Face3-Face5=..4,Edge7=2..5": exactly, at least, at most, between. Throws InvalidInput that
 /// starts with `flag`.
@@ -36,11 +44,15 @@ Divisions parse_divisions(const std::string& flag, const std::string& text);
 /// From text such as "Face3=0.5,X=2".
 LocalSizes parse_local_sizes(const std::string& flag, const std::string& text);
 
+/// From text such as "Edge4=2.0,Edge7=0.5".
+EdgeBiases parse_biases(const std::string& flag, const std::string& text);
+
 /// From text such as "Face3,Face7".
 FaceList parse_faces(const std::string& flag, const std::string& text);
 
 /// Text that is read back as the same.
 std::string text_of(const Division& division);
 std::string text_of(const LocalSize& size);
+std::string text_of(const EdgeBias& bias);
 
 }  // namespace polycube

@@ -16,8 +16,8 @@ namespace polycube {
 namespace {
 
 constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-// The longest edge where no size is given, and the size that cells have where nothing asks for smaller ones.
-constexpr double kSizesPerDiagonal = 15;
+// Without a size: the longest edge, and the one to come near to where nothing asks for smaller ones (27 parts: with a 15th for both the cells' mean scaled Jacobian is lower).
+constexpr double kLongestPerDiagonal = 15, kSizesPerDiagonal = 20;
 // Through a wall that bends: a quadratic element is linear in strain, two show where it turns; three linear ones do as well with C3D8I.
 constexpr int kLayersOfSecondOrder = 2, kLayersOfFirstOrder = 3;
 // Degrees: axes typed with four digits are as square as this.
@@ -133,6 +133,7 @@ void set(MeshOptions& options, const OptionSpec& option, const std::string& text
                  [&](FrameAxes MeshOptions::*m) { options.*m = parse_frame(option, text); },
                  [&](Divisions MeshOptions::*m) { options.*m = parse_divisions(flag(option.name), text); },
                  [&](LocalSizes MeshOptions::*m) { options.*m = parse_local_sizes(flag(option.name), text); },
+                 [&](EdgeBiases MeshOptions::*m) { options.*m = parse_biases(flag(option.name), text); },
                  [&](FaceList MeshOptions::*m) { options.*m = parse_faces(flag(option.name), text); },
              },
              option.member);
@@ -156,7 +157,7 @@ const std::vector<OptionSpec>& option_table() {
   static const std::vector<OptionSpec> table{
       {.name = "size",
        .unit = "mm",
-       .meaning = "Edge length of the hexahedra. Default: by the part, bounding-box diagonal / 15 at most.",
+       .meaning = "Edge length of the hexahedra. Default: by the part, near to bounding-box diagonal / 20.",
        .member = &MeshOptions::size,
        .max = 1e12,
        .zero_is_unset = true},
@@ -223,6 +224,12 @@ const std::vector<OptionSpec>& option_table() {
        .member = &MeshOptions::max_size,
        .max = 1e12,
        .zero_is_unset = true},
+      {.name = "growth",
+       .unit = "",
+       .meaning = "Ratio of the lengths of neighbouring hexahedra, at most, where they grow away from small ones. 1: evenly spaced in every block.",
+       .member = &MeshOptions::growth,
+       .min = 1,
+       .max = 100},
       {.name = "divisions",
        .unit = "",
        .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.",
@@ -231,6 +238,10 @@ const std::vector<OptionSpec>& option_table() {
        .unit = "mm",
        .meaning = "Other edge lengths at CAD faces and along the labels' axes, such as Face3=0.5,X=2.",
        .member = &MeshOptions::sizes},
+      {.name = "bias",
+       .unit = "",
+       .meaning = "Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.",
+       .member = &MeshOptions::bias},
       {.name = "feature_angle",
        .unit = "degrees",
        .meaning = "CAD edges that bend less than this are ignored: the faces on both sides share their mesh faces. 0: none.",
@@ -265,7 +276,7 @@ const std::vector<OptionSpec>& option_table() {
 }
 
 std::string option_type(const OptionSpec& option) {
-  static constexpr std::array<const char*, 9> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "faces"};
+  static constexpr std::array<const char*, 10> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces"};
   return kTypes[option.member.index()];
 }
 
@@ -312,6 +323,7 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option) {
                         },
                         [&](Divisions MeshOptions::*m) { return joined(options.*m); },
                         [&](LocalSizes MeshOptions::*m) { return joined(options.*m); },
+                        [&](EdgeBiases MeshOptions::*m) { return joined(options.*m); },
                         [&](FaceList MeshOptions::*m) {
                           std::string text;
                           for (int face : options.*m) text += (text.empty() ? "Face" : ",Face") + std::to_string(face);
@@ -362,6 +374,7 @@ void check(const MeshOptions& options, double diagonal, const std::vector<int>& 
     for (int face : d.faces) check_entity("--divisions", "Face", face, faces);
   }
   for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, faces);
+  for (const EdgeBias& b : options.bias) check_entity("--bias", "Edge", b.edge, edges);
   for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, faces);
 }
 
@@ -385,13 +398,14 @@ Mat3 frame_of(const FrameAxes& axes) {
 
 double effective_size(const MeshOptions& options, double diagonal) {
   if (options.size > 0) return options.size;
-  return std::min(diagonal / kSizesPerDiagonal, options.max_size > 0 ? options.max_size : diagonal);
+  const double longest = std::min(diagonal / kLongestPerDiagonal, options.max_size > 0 ? options.max_size : diagonal);
+  return longest * kLongestPerDiagonal / kSizesPerDiagonal;
 }
 
 double effective_max_size(const MeshOptions& options, double diagonal) {
   if (options.max_size > 0) return options.max_size;
   const bool automatic = options.size == 0 && options.hexes == 0 && !options.coarsest;
-  return automatic ? diagonal / kSizesPerDiagonal : std::numeric_limits<double>::infinity();
+  return automatic ? diagonal / kLongestPerDiagonal : std::numeric_limits<double>::infinity();
 }
 
 int effective_min_layers(const MeshOptions& options) {

@@ -38,8 +38,10 @@ struct MeshOptions {
   int min_layers = 0;
   int per_circle = 12;
   double max_size = 0;
+  double growth = 1.5;
   Divisions divisions;
   LocalSizes sizes;
+  EdgeBiases bias;
   double fidelity = 3;
   double compactness = 1;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
@@ -48,7 +50,7 @@ struct MeshOptions {
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
   using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
-                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, FaceList MeshOptions::*>;
+                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, EdgeBiases MeshOptions::*, FaceList MeshOptions::*>;
   std::string name;
   std::string unit;                  ///< "mm", "s", "degrees" or empty
   std::string meaning;               ///< one sentence
@@ -61,7 +63,7 @@ struct OptionSpec {
 
 const std::vector<OptionSpec>& option_table();
 
-/// "double", "int", "bool", "string", "labels", "frame", "divisions", "sizes" or "faces".
+/// "double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias" or "faces".
 std::string option_type(const OptionSpec& option);
 
 /// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"),
@@ -90,7 +92,7 @@ Mat3 frame_of(const FrameAxes& axes);
 /// Throws InvalidInput where about `hexes` hexahedra would be made and that is more than kMostHexes.
 void check_count(double hexes);
 
-/// Edge length to come near to, mm: `size`, or diagonal / 15 (max_size where that is less) where it is 0.
+/// Edge length to come near to, mm: `size`, or diagonal / 20 where it is 0 (three quarters of max_size where that is less).
 double effective_size(const MeshOptions& options, double diagonal);
 
 /// Edge length that none is to exceed, mm: max_size, or diagonal / 15 where no size is given; infinite where a size, a number or the coarsest mesh is asked for.

@@ -73,7 +73,7 @@ std::vector<int> merge(const BlockComplex& complex, const Lattice& lattice) {
 
 }  // namespace
 
-Connectivity connect(const PolycuboidMap& map, const BlockComplex& complex, const std::vector<int>& value) {
+Connectivity connect(const PolycuboidMap& map, const BlockComplex& complex, const std::vector<int>& value, const Spacing& spacing) {
   const Lattice lattice(complex, value);
   const std::vector<int> root = merge(complex, lattice);
   Connectivity result;
@@ -178,7 +178,8 @@ Connectivity connect(const PolycuboidMap& map, const BlockComplex& complex, cons
         place.low[d] = low;
         place.high[d] = high;
       } else {
-        const double t = static_cast<double>(m.at[d]) / n;
+        const std::vector<double>* places = spacing.places.empty() ? nullptr : &spacing.places[spacing.layers.of[m.block][d]];
+        const double t = places && !places->empty() ? (*places)[m.at[d]] : static_cast<double>(m.at[d]) / n;
         place.low[d] = place.high[d] = m.at[d] == n ? high : low + t * (high - low);
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hex/hex.h"
+#include "hex/spacing.h"
 
 namespace polycube {
 
@@ -18,6 +19,6 @@ struct Connectivity {
   std::vector<int> quad_block;  ///< per quad: the block whose side lies on the chart
 };
 
-Connectivity connect(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value);
+Connectivity connect(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value, const Spacing& spacing);
 
 }  // namespace polycube

@@ -19,10 +19,10 @@ std::array<int, 4> sorted(std::array<int, 4> v) {
 }  // namespace
 
 HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization,
-                       const Monitor& monitor) {
+                       const Monitor& monitor, const Spacing& spacing) {
   monitor.progress("hex", 0);
   if (quantization.value.size() != map.charts.size()) throw InvalidInput("the quantization does not have one integer per chart");
-  Connectivity connectivity = connect(map, blocks, quantization.value);
+  Connectivity connectivity = connect(map, blocks, quantization.value, spacing);
   const HexReport report = check(connectivity.hexes, map, blocks);
   if (!report.lost_charts.empty()) {
     std::vector<CadRef> entities;

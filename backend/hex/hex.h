@@ -1,6 +1,7 @@
 // Connectivity and first geometry of the hexahedral mesh (paper, sections 5.2 and 5.3).
 #pragma once
 
+#include "hex/spacing.h"
 #include "quantize/quantize.h"
 
 namespace polycube {
@@ -21,10 +22,10 @@ struct HexComplex {
 /// part of, numbered as build_hexes numbers them.
 std::vector<int> coarse_cells(const BlockComplex& blocks, const std::vector<int>& coarse, const std::vector<int>& value);
 
-/// Throws StageFailed("hex", ...) when the result is not a valid mesh of the solid (integers that do not satisfy C1 and C2), InvalidInput where
+/// Lattice points stand as `spacing` says, evenly by default. Throws StageFailed("hex", ...) when the result is not a valid mesh of the solid (integers that do not satisfy C1 and C2), InvalidInput where
 /// it would have more than kMostHexes cells.
 HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization,
-                       const Monitor& monitor);
+                       const Monitor& monitor, const Spacing& spacing = {});
 
 /// What is wrong with the connectivity; all zero or empty on a good mesh.
 struct HexReport {

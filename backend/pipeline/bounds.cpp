@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "hex/spacing.h"
 #include "pipeline/circles.h"
 #include "pipeline/edge_runs.h"
 #include "quantize/problem.h"
@@ -17,6 +18,13 @@ constexpr int kNoMost = std::numeric_limits<int>::max();
 constexpr double kSlack = 0.05;
 // Of shares of elements that are no whole numbers: a tenth is none.
 constexpr double kShareSlack = 0.1;
+// Of the longest to the shortest edge of a cell: the most that solvers take without a warning.
+constexpr double kWidestAspect = 10;
+// What asks the cells beside it for more, in sizes (27 parts: without these two limits some had a hundred times their cells, since a sheet goes through the whole part; with a
+// thirtieth and a tenth the number is up to 1.6 times as large): cells along which others may not be longer than 10 times that width, cells from which others grow.
+constexpr double kThinnest = 1.0 / 20, kSmallest = 1.0 / 5;
+// A layer never gets more than so many times its cells at once for what stands beside it.
+constexpr int kMostRounds = 100;
 
 /// A place along an axis: (value, chart) or (value, -1 - node) where the grid is free.
 using Place = std::pair<double, int>;
@@ -51,12 +59,14 @@ std::vector<double> shares(const RoundEdge& round, const std::vector<EdgeRun>& r
     turns.push_back(turn);
     whole += turn;
   }
-  const bool held = std::all_of(runs.begin(), runs.end(), [](const EdgeRun& r) { return r.from >= 0 && r.to >= 0; });
+  // Pieces of a circle may share its elements out otherwise; an arc has none to give away.
+  const bool held = std::none_of(runs.begin(), runs.end(), [](const EdgeRun& r) { return r.from < 0 || r.to < 0; });
   std::vector<double> result;
   double passed = 0, before = 0;
   for (const double turn : turns) {
-    passed += round.elements * turn / whole;
-    const double now = held ? std::round(passed) : passed;
+    const double share = round.elements * turn / whole;
+    passed += share;
+    const double now = held ? std::round(passed) : round.circle > 0 ? passed : before + std::ceil(share - kShareSlack);
     result.push_back(now - before);
     before = now;
   }
@@ -64,10 +74,12 @@ std::vector<double> shares(const RoundEdge& round, const std::vector<EdgeRun>& r
 }
 
 void bound_circles(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                   const std::vector<std::vector<int>>& edge_chains, int per_circle, std::vector<DistanceConstraint>& constraints) {
+                   const std::vector<std::vector<int>>& edge_chains, int per_circle, const std::map<int, int>& more,
+                   std::vector<DistanceConstraint>& constraints) {
   const EdgeRuns edge_runs(tets, map, blocks);
   std::array<Stretches, 3> up;
-  for (const RoundEdge& round : round_edges(model, per_circle)) {
+  for (RoundEdge round : round_edges(model, per_circle)) {
+    if (const auto at = more.find(round.edge); at != more.end()) round.elements += at->second;
     const std::vector<int>& chain = edge_chains[round.edge];
     const std::vector<EdgeRun> runs = edge_runs.of(chain);
     if (runs.empty()) continue;
@@ -94,9 +106,9 @@ void bound_circles(const CadModel& model, const TetMesh& tets, const PolycuboidM
         }
         const auto next = stretches.find(at);
         if (next == stretches.end()) continue;
-        for (const auto& [place, more] : next->second) {
+        for (const auto& [place, step] : next->second) {
           Need& there = passed[place];
-          if (need.elements + more.elements > there.elements) there = {need.elements + more.elements, more.name};
+          if (need.elements + step.elements > there.elements) there = {need.elements + step.elements, step.name};
         }
       }
     }
@@ -131,12 +143,57 @@ void bound_lengths(const PolycuboidMap& map, const BlockComplex& blocks, double 
 }  // namespace
 
 std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options) {
+                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more) {
   std::vector<DistanceConstraint> constraints;
-  bound_circles(model, tets, map, blocks, edge_chains, effective_per_circle(options), constraints);
+  bound_circles(model, tets, map, blocks, edge_chains, effective_per_circle(options), more, constraints);
   if (options.min_layers == 0 && effective_min_layers(options) > 1) bound_walls(blocks, effective_min_layers(options), constraints);
   const double longest = effective_max_size(options, model.diagonal());
   if (std::isfinite(longest)) bound_lengths(map, blocks, longest, constraints);
+  return constraints;
+}
+
+std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value, double growth,
+                                                 double size) {
+  std::vector<DistanceConstraint> constraints;
+  const BlockLayers layers = find_layers(blocks);
+  const auto length = [&](int l) { return map.charts[layers.layers[l].high].value - map.charts[layers.layers[l].low].value; };
+  const auto cells = [&](int l) { return value[layers.layers[l].high] - value[layers.layers[l].low]; };
+  std::map<std::array<int, 2>, int> wide;
+  for (std::size_t b = 0; b < blocks.blocks.size(); ++b) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int d = 0; d < 3; ++d) least = std::min(least, length(layers.of[b][d]) / cells(layers.of[b][d]));
+    if (!std::isfinite(least)) continue;  // squashed
+    least = std::max(least, kThinnest * size);
+    for (int d = 0; d < 3; ++d) {
+      const int l = layers.of[b][d], needed = static_cast<int>(std::ceil(length(l) / (kWidestAspect * least) - kSlack));
+      int& most = wide[blocks.blocks[b].charts[d]];
+      if (cells(l) > 0 && needed > cells(l)) most = std::max(most, needed);
+    }
+  }
+  for (const auto& [charts, needed] : wide) {
+    if (needed > 0) constraints.push_back({charts[0], charts[1], needed, kNoMost, "no cell longer than 10 times its width", true});
+  }
+  if (growth <= 1) return constraints;
+  const std::string name = "cells that grow by " + std::to_string(growth).substr(0, 4) + " at most";
+  for (int l = 0; l < static_cast<int>(layers.layers.size()); ++l) {
+    if (cells(l) == 0) continue;
+    const auto beside = layers_beside(blocks, layers, l, value);
+    std::array<double, 2> first;
+    for (const int s : {0, 1}) {
+      first[s] = std::numeric_limits<double>::infinity();
+      for (const int other : beside[s]) first[s] = std::min(first[s], growth * std::max(length(other) / cells(other), kSmallest * size));
+    }
+    // Cells that grow from both ends until the layer is full.
+    double low = first[0], high = first[1], covered = 0;
+    int needed = 0;
+    while (covered < length(l) * (1 - kSlack) && needed < cells(l) * kMostRounds && std::isfinite(std::min(low, high))) {
+      double& next = low < high ? low : high;
+      covered += next;
+      next *= growth;
+      ++needed;
+    }
+    if (needed > cells(l)) constraints.push_back({layers.layers[l].low, layers.layers[l].high, needed, kNoMost, name, true});
+  }
   return constraints;
 }
 

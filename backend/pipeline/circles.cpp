@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -18,8 +20,13 @@ constexpr double kSmallCircle = 1.0 / 100;
 constexpr int kPerSmallCircle = 8;
 // No edge needs more turns than this: more of them are noise of a spline.
 constexpr double kMostTurns = 4;
-// A circle that two or more edges make closes within this, radians.
-constexpr double kClosed = 0.01;
+// A circle that two or more edges make closes within this, radians; their centres are as near, in diagonals.
+constexpr double kClosed = 0.01, kSameCentre = 1e-5;
+
+struct Circle {
+  double turn = 0;
+  int first = 0;  // edge
+};
 
 int elements_for(double turn, int per_circle) {
   const double turns = std::min(turn / (2 * std::numbers::pi), kMostTurns);
@@ -59,39 +66,73 @@ double edge_turn(const CadModel& model, int edge, double from, double to) {
 }
 
 std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
-  std::vector<RoundEdge> result;
-  if (per_circle <= 0) return result;
-  std::map<std::pair<std::array<int, 2>, int>, double> round;  // turn of the edges between two faces, by barrel: halves of one circle add up
-  std::vector<int> per_turn;
+  if (per_circle <= 0) return {};
+  std::vector<RoundEdge> all;
+  std::vector<Vec3> centres;
   for (const int e : model.edges()) {
     const CadEdge& edge = model.edge(e);
     if (edge.seam || edge.degenerate || edge.tiny) continue;
     const auto [from, to] = model.edge_range(e);
     const double turn = edge_turn(model, e, from, to);
     const bool small = turn > 0 && 2 * edge.length / turn < kSmallCircle * model.diagonal();
-    const int n = small ? std::min(per_circle, kPerSmallCircle) : per_circle;
-    std::array<int, 2> faces = edge.faces;
-    std::sort(faces.begin(), faces.end());
-    round[{faces, barrel_beside(model, edge)}] += turn;
-    if (elements_for(turn, n) < 2) continue;
-    result.push_back({e, turn, elements_for(turn, n), {}});
-    per_turn.push_back(n);
+    const int round = small ? std::min(per_circle, kPerSmallCircle) : per_circle;
+    all.push_back({e, turn, elements_for(turn, round), 0, round, {}});
+    const Vec3 bend = model.edge_bend(e, (from + to) / 2);
+    centres.push_back(model.edge_point(e, (from + to) / 2) + bend / std::max(bend.squaredNorm(), std::numeric_limits<double>::min()));
   }
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    RoundEdge& r = result[i];
+  // Pieces of one circle: they go on from each other about one centre.
+  UnionFind same(all.size());
+  std::map<int, std::vector<int>> at_vertex;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    if (barrel_beside(model, model.edge(all[i].edge)) == 0) continue;
+    for (const int v : model.edge(all[i].edge).vertices) {
+      for (const int other : at_vertex[v]) {
+        if ((centres[i] - centres[other]).norm() < kSameCentre * model.diagonal()) same.unite(i, other);
+      }
+      at_vertex[v].push_back(i);
+    }
+  }
+  std::map<int, Circle> circles;  // by root
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    Circle& circle = circles[same.find(i)];
+    circle.turn += all[i].turn;
+    if (circle.first == 0) circle.first = all[i].edge;
+  }
+  std::vector<RoundEdge> result;
+  for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+    RoundEdge& r = all[i];
     const CadEdge& edge = model.edge(r.edge);
-    std::array<int, 2> faces = edge.faces;
-    std::sort(faces.begin(), faces.end());
+    const Circle& circle = circles.at(same.find(i));
     const int barrel = barrel_beside(model, edge);
-    const bool closed = std::abs(round.at({faces, barrel}) - 2 * std::numbers::pi) < kClosed;
-    if (barrel > 0 && closed) {
+    if (barrel > 0 && std::abs(circle.turn - 2 * std::numbers::pi) < kClosed) {
+      r.circle = circle.first;
       const bool bore = is_bore(model, barrel, model.edge_point(r.edge, model.edge_range(r.edge)[0]));
-      r.name = name({2, barrel}) + ": " + counted(per_turn[i]) + " round the " + (bore ? "bore" : "shaft");
+      r.name = name({2, barrel}) + ": " + counted(r.round) + " round the " + (bore ? "bore" : "shaft");
     } else {
       r.name = name({1, r.edge}) + ": " + counted(r.elements) + (edge.closed ? " round the curve" : " along the arc");
     }
+    if (r.circle > 0 || r.elements > 1) result.push_back(std::move(r));
   }
   return result;
+}
+
+std::vector<int> missing_elements(const std::vector<RoundEdge>& edges, const std::vector<int>& elements) {
+  std::map<int, int> round;  // per circle
+  std::map<int, bool> whole;
+  for (const RoundEdge& r : edges) {
+    if (r.circle == 0) continue;
+    round[r.circle] += elements[r.edge];
+    whole.try_emplace(r.circle, true).first->second &= elements[r.edge] > 0;
+  }
+  std::vector<int> missing;
+  for (const RoundEdge& r : edges) {
+    if (r.circle == 0) {
+      missing.push_back(elements[r.edge] > 0 ? std::max(0, r.elements - elements[r.edge]) : 0);
+    } else {
+      missing.push_back(r.circle == r.edge && whole.at(r.circle) ? std::max(0, r.round - round.at(r.circle)) : 0);
+    }
+  }
+  return missing;
 }
 
 }  // namespace polycube

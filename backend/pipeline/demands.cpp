@@ -185,6 +185,14 @@ void check_divisions(const CadModel& model, const Divisions& divisions) {
   }
 }
 
+void check_biases(const CadModel& model, const EdgeBiases& biases) {
+  for (const EdgeBias& b : biases) {
+    const std::string start = "--bias: " + text_of(b) + ": ";
+    if (model.edge(b.edge).seam) throw InvalidInput(start + "the edge is a seam, which meshes do not follow");
+    if (model.edge(b.edge).degenerate || model.edge(b.edge).tiny) throw InvalidInput(start + "the edge is a point");
+  }
+}
+
 QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
                                  const MeshOptions& options, double scale) {
   QuantizeOptions result;
@@ -217,6 +225,23 @@ QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, con
     }
   }
   return result;
+}
+
+void bias_edges(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const EdgeBiases& biases,
+                const std::vector<int>& value, Spacing& spacing) {
+  if (biases.empty()) return;
+  const auto chains = edge_chains(model, tets);
+  const EdgeRuns edge_runs(tets, map, blocks);
+  for (const EdgeBias& b : biases) {
+    const std::vector<EdgeRun> runs = edge_runs.of(chains[b.edge]);
+    int cells = 0;
+    for (const EdgeRun& run : runs) {
+      if (run.from < 0 || run.to < 0) throw StageFailed("quantize", "the grid does not follow the edge of --bias " + text_of(b), {{1, b.edge}});
+      cells += std::abs(value[run.to] - value[run.from]);
+    }
+    if (cells < 2) continue;
+    for (const EdgeRun& run : runs) bias(value, run.from, run.to, std::pow(b.ratio, 1.0 / (cells - 1)), spacing);
+  }
 }
 
 Divisions allow_for_padding(const HexMesh& mesh, const Association& association, const Divisions& divisions) {

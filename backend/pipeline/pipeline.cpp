@@ -74,6 +74,7 @@ void check_all(const CadModel& model, const MeshOptions& options) {
   check(options, model.diagonal(), model.faces(), model.edges());
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
+  check_biases(model, options.bias);
 }
 
 }  // namespace

@@ -29,6 +29,12 @@ std::string counted(int elements) { return std::to_string(elements) + (elements 
 
 }  // namespace
 
+std::vector<int> elements_on_edges(const Association& association, int edge_count) {
+  std::vector<int> count(static_cast<std::size_t>(edge_count) + 1, 0);
+  for (const int e : association.segment_edge) ++count[e];
+  return count;
+}
+
 Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle) {
   Shortfalls result;
   if (min_layers > 1) {
@@ -52,10 +58,13 @@ Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Ass
                                   " through the wall, not " + std::to_string(min_layers));
     }
   }
-  for (const RoundEdge& round : round_edges(model, per_circle)) {
-    const auto elements = static_cast<int>(std::count(association.segment_edge.begin(), association.segment_edge.end(), round.edge));
-    if (elements == 0 || elements >= round.elements) continue;
-    result.coarse_circles.push_back(name({1, round.edge}) + ": " + counted(elements) + " along the curve, not " + std::to_string(round.elements));
+  const std::vector<RoundEdge> edges = round_edges(model, per_circle);
+  const std::vector<int> missing = missing_elements(edges, elements_on_edges(association, model.edge_count()));
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (missing[i] == 0) continue;
+    const int wanted = edges[i].circle > 0 ? edges[i].round : edges[i].elements;
+    result.coarse_circles.push_back(name({1, edges[i].edge}) + ": " + counted(wanted - missing[i]) + (edges[i].circle > 0 ? " round" : " along") +
+                                    " the curve, not " + std::to_string(wanted));
   }
   return result;
 }

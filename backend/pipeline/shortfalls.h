@@ -14,6 +14,9 @@ struct Shortfalls {
   std::vector<std::string> coarse_circles;  ///< CAD edges; lost ones are told as lost
 };
 
+/// Mesh edges on each CAD edge, by its number.
+std::vector<int> elements_on_edges(const Association& association, int edge_count);
+
 Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle);
 
 }  // namespace polycube

@@ -18,7 +18,7 @@ class Options(unittest.TestCase):
         self.assertLessEqual({"size", "hexes", "coarsest", "order", "time_limit", "element_type", "labels", "threads"}, set(table))
         for option in table.values():
             self.assertEqual(set(option), {"name", "unit", "meaning", "type", "default", "min", "max", "choices", "advanced"})
-            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "faces"))
+            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces"))
         self.assertEqual(table["order"]["default"], 2)
 
     def test_bad_options_are_named(self):
@@ -47,7 +47,7 @@ class Options(unittest.TestCase):
 
 class Mesh(FolderTest):
     def test_arrays_of_a_box(self):
-        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=1, order=1)
+        mesh = _polycube.mesh(brep=box().exportBrepToString(), size=1, order=1, min_layers=1)
         self.assertEqual(mesh.hexes.shape, (32, 8))
         self.assertEqual(mesh.nodes.shape, (9 * 3 * 3, 3))
         self.assertEqual(mesh.quads.shape, (8 + 64, 4))

@@ -16,10 +16,12 @@
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/bounds.h"
+#include "pipeline/circles.h"
 #include "pipeline/demands.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/gate.h"
 #include "pipeline/search/give_up.h"
+#include "pipeline/shortfalls.h"
 #include "pipeline/vertex_room.h"
 #include "quantize/quantize.h"
 
@@ -34,6 +36,13 @@ constexpr double kCoarse = 1.0 / 25;
 constexpr std::array kFiner{1.25, 1.6, 2.0};
 // Divisions of the grid one after the other at one vertex: for as many CAD edges more than a corner of the grid has.
 constexpr int kRoomRounds = 3;
+// Times that the integers are found anew for what stands beside each other: what is left after them is little.
+constexpr int kNeighbourRounds = 3;
+// Number of cells asked for: how far off the grid's may be (logarithm), and with padding; the number goes with the 2.5th power of the scale or less, where bounds
+// hold some of them; a scale that many times off is not tried.
+constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1, kCountPower = 0.4, kCountReach = 8;
+// Times that round CAD edges get more cells.
+constexpr int kRoundingRounds = 2;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -42,6 +51,16 @@ struct Routed {
   Association association;
   std::vector<CrowdedCorner> crowded;
 };
+
+double cell_count(const BlockComplex& blocks, const std::vector<int>& value) {
+  double cells = 0;
+  for (const Block& b : blocks.blocks) {
+    double product = 1;
+    for (const auto& [low, high] : b.charts) product *= value[high] - value[low];
+    cells += product;
+  }
+  return cells;
+}
 
 double typical_edge(const HexMesh& mesh) {
   double sum = 0;
@@ -67,6 +86,7 @@ StageFailed inverted(const FitReport& fitted) {
 /// A mesh on the way: what plans that surrender edges start from.
 struct Evaluator::Draft : Made {
   Plan plan;
+  bool roomy = false;  // with cells enough for CAD edges that go on from each other
   const Structure* structure = nullptr;
   HexComplex complex;
   Quantization quantization;
@@ -87,6 +107,11 @@ class Evaluator::Work {
 
   Outcome anew(const Plan& plan) {
     Draft draft = fitted(plan, options_.divisions);
+    const double grid = static_cast<double>(draft.complex.mesh.hexes.size()), all = static_cast<double>(draft.padded.mesh.hexes.size());
+    if (options_.hexes > 0 && std::abs(all / options_.hexes - 1) > kPaddedMiss && fits_left_ > 0) {
+      grid_share_ = grid / all;
+      draft = fitted(plan, options_.divisions);
+    }
     Outcome outcome = closed(std::move(draft));
     if (outcome.kind == Outcome::Kind::kMesh) retry_padded(plan, outcome);
     return counted(std::move(outcome));
@@ -166,8 +191,36 @@ class Evaluator::Work {
         refine(draft, association, finer, divisions);
       }
     }
+    round_out(draft, association, divisions);
     pad_and_fit(draft, association);
     return draft;
+  }
+
+  // CAD edges take other ways on the grid than their images do: those with too few mesh edges for their turning get more cells, as long as that helps.
+  void round_out(Draft& draft, Association& association, const Divisions& divisions) {
+    more_elements_.clear();
+    const std::vector<RoundEdge> edges = round_edges(model_, effective_per_circle(options_));
+    const auto missing = [&](const Association& a) { return missing_elements(edges, elements_on_edges(a, model_.edge_count())); };
+    const auto sum = [](const std::vector<int>& v) { return std::accumulate(v.begin(), v.end(), 0); };
+    std::vector<int> before = missing(association);
+    for (int round = 0; round < kRoundingRounds && sum(before) > 0; ++round) {
+      for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (before[i] > 0) more_elements_[edges[i].edge] += before[i];
+      }
+      try {
+        Draft next = on_grid(draft.plan, draft.roomy, divisions);
+        Association found = divided(next, routed(next, next.complex));
+        const std::vector<int> now = missing(found);
+        if (found.lost_edges.size() > association.lost_edges.size() || sum(now) >= sum(before)) continue;
+        before = now;
+        draft = std::move(next);
+        association = std::move(found);
+      } catch (const StageFailed& e) {
+        monitor_.log("with more elements round circles: " + e.stage() + ": " + e.what());
+        break;
+      }
+    }
+    more_elements_.clear();
   }
 
   // The draft on a finer grid, where that captures more CAD edges and is not too fine for any computer.
@@ -201,6 +254,7 @@ class Evaluator::Work {
   Draft on_grid(const Plan& plan, bool roomy, const Divisions& divisions) {
     Draft draft;
     draft.plan = plan;
+    draft.roomy = roomy;
     draft.structure = &own_.structures_.structure(plan.structure);
     const Structure& s = *draft.structure;
     draft.options.ignored = own_.ignored_;
@@ -210,28 +264,66 @@ class Evaluator::Work {
       if (out[e] && !own_.ignored_[e]) draft.options.edge_chains[e].clear();
     }
     draft.quantization = clock_.stage("quantize", [&] { return quantized(plan, s, draft.options, roomy, divisions); });
-    draft.complex = clock_.stage("hex", [&] { return build_hexes(s.tets, s.map, s.blocks, draft.quantization, monitor_); });
+    draft.complex = clock_.stage("hex", [&] {
+      const std::vector<int>& value = draft.quantization.value;
+      Spacing spacing = graded_spacing(s.blocks, s.map, value, options_.growth);
+      bias_edges(model_, s.tets, s.map, s.blocks, options_.bias, value, spacing);
+      return build_hexes(s.tets, s.map, s.blocks, draft.quantization, monitor_, spacing);
+    });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(draft.complex.mesh.hexes.size()) + " hexes");
     draft.options.size = typical_edge(draft.complex.mesh);
     return draft;
   }
 
   Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
-    const double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
-    MeshOptions demanded = options_;
-    demanded.divisions = divisions;
-    QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
-    const auto add = [&](const std::vector<DistanceConstraint>& more) { asked.constraints.insert(asked.constraints.end(), more.begin(), more.end()); };
-    add(room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored));
+    double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
+    std::vector<DistanceConstraint> room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
     auto chains = association.edge_chains;
     for (const FeatureEdge& e : s.features.edges) {
       if (e.capture == EdgeCapture::kLost) chains[e.edge].clear();
     }
-    if (roomy) add(room_for_edges(chains, s.tets, s.map, s.blocks));
-    const std::vector<DistanceConstraint> bounds = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_);
+    if (roomy) {
+      const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
+      room.insert(room.end(), more.begin(), more.end());
+    }
+    const std::vector<DistanceConstraint> own = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_);
+    std::vector<DistanceConstraint> bounds = own;
+    Quantization result = integers(s, scale, divisions, room, bounds);
+    if (options_.hexes > 0) {
+      const double wanted = options_.hexes * std::pow(plan.refine, 3) * grid_share_;
+      const auto miss = [&](const Quantization& q) { return std::abs(std::log(cell_count(s.blocks, q.value) / wanted)); };
+      double tried = scale;
+      for (Quantization next = result; miss(next) > kCountMiss; ) {
+        const double factor = std::pow(wanted / cell_count(s.blocks, next.value), kCountPower);
+        tried *= factor;
+        if (tried < scale / kCountReach || tried > scale * kCountReach) break;
+        bounds = own;
+        next = integers(s, tried, divisions, room, bounds);
+        if (miss(next) >= miss(result)) break;
+        result = next;
+      }
+      scale = tried;
+    }
+    for (const std::string& line : deciding(bounds, s.map, result.value, scale)) monitor_.log("size: " + line);
+    return result;
+  }
+
+  // `bounds` get those of neighbouring cells added.
+  Quantization integers(const Structure& s, double scale, const Divisions& divisions, const std::vector<DistanceConstraint>& room, std::vector<DistanceConstraint>& bounds) const {
+    MeshOptions demanded = options_;
+    demanded.divisions = divisions;
+    QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
+    const auto add = [&](const std::vector<DistanceConstraint>& more) { asked.constraints.insert(asked.constraints.end(), more.begin(), more.end()); };
+    add(room);
     add(bounds);
     Quantization result = quantize(s.blocks, s.map, asked, monitor_);
-    for (const std::string& line : deciding(bounds, s.map, result.value, scale)) monitor_.log("size: " + line);
+    for (int round = 0; round < kNeighbourRounds && !options_.coarsest; ++round) {
+      const std::vector<DistanceConstraint> more = neighbour_bounds(s.map, s.blocks, result.value, options_.growth, 1 / scale);
+      if (more.empty()) break;
+      add(more);
+      bounds.insert(bounds.end(), more.begin(), more.end());
+      result = quantize(s.blocks, s.map, asked, monitor_);
+    }
     return result;
   }
 
@@ -304,6 +396,8 @@ class Evaluator::Work {
   StageClock& clock_;
   const int fits_;
   int fits_left_;
+  std::map<int, int> more_elements_;  // per round CAD edge, where a grid gave it fewer than it needs
+  double grid_share_ = 1;  // of the grid's cells among all, where a number of them is asked for
 };
 
 Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor)

@@ -166,14 +166,14 @@ TEST(Options, AgainstThePart) {
 
 TEST(Options, WithoutASizeThePartDecides) {
   MeshOptions o;
-  EXPECT_DOUBLE_EQ(effective_size(o, 60), 4);
+  EXPECT_DOUBLE_EQ(effective_size(o, 60), 3);
   EXPECT_DOUBLE_EQ(effective_max_size(o, 60), 4);
   EXPECT_EQ(effective_min_layers(o), 2);
   o.order = 1;
   EXPECT_EQ(effective_min_layers(o), 3);
-  o.max_size = 3;
-  EXPECT_DOUBLE_EQ(effective_size(o, 60), 3);
-  EXPECT_DOUBLE_EQ(effective_max_size(o, 60), 3);
+  o.max_size = 2;
+  EXPECT_DOUBLE_EQ(effective_size(o, 60), 1.5);
+  EXPECT_DOUBLE_EQ(effective_max_size(o, 60), 2);
   o.max_size = 0;
   o.size = 6;
   EXPECT_DOUBLE_EQ(effective_size(o, 60), 6);

@@ -49,7 +49,7 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     """All-hexahedral mesh of one solid.
 
     shape_or_object: Part.Shape, or a document object that has one, meshed where it stands in the 3D view.
-    size: edge length in mm or as a FreeCAD.Units.Quantity; None leaves it to the part, the bounding box's diagonal / 15 at most.
+    size: edge length in mm or as a FreeCAD.Units.Quantity; None leaves it to the part, the bounding box's diagonal / 20 where nothing asks for less.
     order: 1 or 2. `more`: see options().
     progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
     Returns a MeshResult (arrays and report). Raises InvalidInput, StageFailed, Cancelled.

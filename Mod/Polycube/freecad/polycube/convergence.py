@@ -129,8 +129,8 @@ def _options(mesh, sizes):
     options = option_table.read(mesh)
     hexes = options.pop("hexes", None)
     shape = shapes.shape_of(objects.part_of(mesh), beside=mesh)
-    longest = shape.BoundBox.DiagonalLength / 15
-    now = (shape.Volume / hexes) ** (1 / 3) if hexes else options.get("size") or min(options.get("max_size") or longest, longest)
+    automatic = shape.BoundBox.DiagonalLength / 20
+    now = (shape.Volume / hexes) ** (1 / 3) if hexes else options.get("size") or min(0.75 * (options.get("max_size") or automatic / 0.75), automatic)
     defaults = {option["name"]: option["default"] for option in option_table.table()}
     round_circles = options.get("per_circle", defaults["per_circle"])
     through_walls = options.get("min_layers") or (2 if options.get("order", defaults["order"]) == 2 else 3)

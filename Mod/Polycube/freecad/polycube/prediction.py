@@ -4,8 +4,8 @@ import math
 
 from . import option_table
 
-#: The largest size that the engine takes where none is given: a share of the bounding box's diagonal. Round circles and in walls it takes smaller ones.
-DIAGONALS = 15
+#: The size that the engine takes where none is given: a share of the bounding box's diagonal. Round circles and in walls it takes smaller ones.
+DIAGONALS = 20
 #: A count is worth a question where local sizes make it so many times that without them, and so large; guesses of what surprises.
 _TIMES, _MANY = 10, 20000
 #: Elements through walls where nothing is said, by element order, as the engine has it.

@@ -257,7 +257,7 @@ struct JobCommand {
   explicit JobCommand(CLI::App& app) : command(*app.add_subcommand("serve-job", "Mesh or labels of the part in a job's folder, for FreeCAD")) {
     command.set_version_flag("--version", POLYCUBE_VERSION);
     command.add_option("folder", folder, "Folder with shape.brep and options.json, where the result goes too")->required()->check(CLI::ExistingDirectory);
-    command.add_option("kind", kind, "What to make of them")->capture_default_str()->check(CLI::IsMember({"mesh", "labels"}));
+    command.add_option("kind", kind, "What to make of them")->capture_default_str()->check(CLI::IsMember({"mesh", "labels", "session"}));
   }
 
   CLI::App& command;

@@ -5,7 +5,10 @@
 #include <atomic>
 #include <cstdio>
 #include <fstream>
+#include <functional>
+#include <iostream>
 #include <iterator>
+#include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -160,16 +163,23 @@ void save_labels(const std::string& folder, const LabelledPart& part, int face_c
   write_text(folder + "/labels.json", dump(plain) + "\n");
 }
 
+void limit_time(Monitor& monitor, const MeshOptions& options) {
+  if (options.time_limit > 0)
+    monitor.set_deadline(Monitor::Clock::now() +
+                         std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
+}
+
+CadModel read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
+  return CadModel::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
+}
+
 void work(const std::string& folder, JobKind kind) {
   const MeshOptions options = options_from_json(read_text(folder + "/options.json"));
   Monitor monitor;
   const Voice voice(monitor, folder);
-  if (options.time_limit > 0)
-    monitor.set_deadline(Monitor::Clock::now() +
-                         std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
-  const auto read = [&] { return CadModel::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor); };
-  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part(read, options, monitor));
-  const CadModel model = read();
+  limit_time(monitor, options);
+  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape(folder, options, monitor); }, options, monitor));
+  const CadModel model = read_shape(folder, options, monitor);
   check(options, model.diagonal(), model.faces(), model.edges());
   save_labels(folder, label_part(model, options, monitor, Until::kLabels), model.face_count());
 }
@@ -181,12 +191,47 @@ int leave_error(const std::string& folder, Status status, const char* kind, cons
   return status;
 }
 
+/// Does the work; the exit status, and the error in the folder.
+int attempt(const std::string& folder, const std::function<void()>& do_work) {
+  try {
+    do_work();
+    return kDone;
+  } catch (const InvalidInput& error) {
+    return leave_error(folder, kBadInput, "InvalidInput", error);
+  } catch (const StageFailed& error) {
+    Json entities = Json::array();
+    for (const CadRef& entity : error.entities()) entities.push_back(name(entity));
+    return leave_error(folder, kFailed, "StageFailed", error, {{"stage", error.stage()}, {"entities", entities}});
+  } catch (const Cancelled& error) {
+    return leave_error(folder, kStopped, "Cancelled", error);
+  }
+}
+
+/// Meshes one after the other, as lines on standard input ask for them, until it ends. The first has the shape read and brings the session's first options.
+void serve_session(const std::string& folder) {
+  std::unique_ptr<Session> session;
+  for (std::string line; std::getline(std::cin, line);) {
+    const std::string own = folder + "/" + line;
+    const int status = attempt(own, [&] {
+      const MeshOptions options = options_from_json(read_text(own + "/options.json"));
+      Monitor monitor;
+      const Voice voice(monitor, own);
+      limit_time(monitor, options);
+      if (!session) session = std::make_unique<Session>(read_shape(folder, options, monitor), options);
+      save_mesh(own, mesh_part(*session, options, monitor));
+    });
+    std::printf("%s\n", dump({{"done", status}}).c_str());
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 JobKind job_kind(const std::string& name) {
   if (name == "mesh") return JobKind::kMesh;
   if (name == "labels") return JobKind::kLabels;
-  throw InvalidInput("a job is mesh or labels, not '" + name + "'");
+  if (name == "session") return JobKind::kSession;
+  throw InvalidInput("a job is mesh, labels or session, not '" + name + "'");
 }
 
 MeshOptions options_from_json(const std::string& text) {
@@ -202,18 +247,10 @@ MeshOptions options_from_json(const std::string& text) {
 int serve_job(const std::string& folder, JobKind kind) {
   setsid();
   end_by_faults();
-  try {
+  return attempt(folder, [&] {
+    if (kind == JobKind::kSession) return serve_session(folder);
     work(folder, kind);
-    return kDone;
-  } catch (const InvalidInput& error) {
-    return leave_error(folder, kBadInput, "InvalidInput", error);
-  } catch (const StageFailed& error) {
-    Json entities = Json::array();
-    for (const CadRef& entity : error.entities()) entities.push_back(name(entity));
-    return leave_error(folder, kFailed, "StageFailed", error, {{"stage", error.stage()}, {"entities", entities}});
-  } catch (const Cancelled& error) {
-    return leave_error(folder, kStopped, "Cancelled", error);
-  }
+  });
 }
 
 }  // namespace polycube

@@ -552,8 +552,8 @@
       <translation>Abbrechen</translation>
     </message>
     <message>
-      <source>Edge length of the hexahedra. Default: by the part, bounding-box diagonal / 15 at most.</source>
-      <translation>Kantenlänge der Hexaeder. Ohne Angabe: nach dem Bauteil, höchstens Diagonale der Hüllbox / 15.</translation>
+      <source>Edge length of the hexahedra. Default: by the part, near to bounding-box diagonal / 20.</source>
+      <translation>Kantenlänge der Hexaeder. Vorgabe: nach dem Teil, nahe bei der Diagonale des Hüllquaders / 20.</translation>
     </message>
     <message>
       <source>Hexes</source>
@@ -652,6 +652,14 @@
       <translation>Kantenlänge, die kein Hexaeder überschreiten soll. Ohne Angabe: Diagonale der Hüllbox / 15, wo keine Größe angegeben ist.</translation>
     </message>
     <message>
+      <source>Growth</source>
+      <translation>Wachstum</translation>
+    </message>
+    <message>
+      <source>Ratio of the lengths of neighbouring hexahedra, at most, where they grow away from small ones. 1: evenly spaced in every block.</source>
+      <translation>Verhältnis der Längen benachbarter Hexaeder, höchstens, wo sie von kleinen weg wachsen. 1: in jedem Block gleich verteilt.</translation>
+    </message>
+    <message>
       <source>Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.</source>
       <translation>Elemente entlang von CAD-Kanten und zwischen gegenüberliegenden CAD-Flächen, wie Edge4=6,Face1-Face2=3.. (mindestens), ..4 (höchstens), 2..5.</translation>
     </message>
@@ -662,6 +670,14 @@
     <message>
       <source>Other edge lengths at CAD faces and along the labels' axes, such as Face3=0.5,X=2.</source>
       <translation>Andere Kantenlängen an CAD-Flächen und entlang der Achsen, wie Face3=0.5,X=2.</translation>
+    </message>
+    <message>
+      <source>Bias</source>
+      <translation>Verdichtung</translation>
+    </message>
+    <message>
+      <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
+      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante geteilt durch die des ersten, wie Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
     </message>
     <message>
       <source>Feature angle</source>

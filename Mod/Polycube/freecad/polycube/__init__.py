@@ -2,6 +2,8 @@
 
     from freecad import polycube
     result = polycube.mesh(shape_or_object, size=5, order=2)      # arrays and report, no document needed
+    with polycube.prepare(shape_or_object) as session:            # several meshes, one map
+        coarse, fine = session.mesh(size=8), session.mesh(size=4)
     obj = polycube.create_fem_mesh(part_object, size=5)           # a FEM mesh object in the part's document
     solution = polycube.solve(analysis)                           # CalculiX, results in the analysis
     series = polycube.converge(analysis)                          # finer and finer, and the limit of a result
@@ -14,7 +16,7 @@ FreeCAD imports this package at start, so it imports nothing heavy.
 import os
 import re
 
-from .api import converge, create_fem_mesh, labels, mesh, options, refine, set_analysis, set_options, set_refinement, solve, update_fem_mesh
+from .api import converge, create_fem_mesh, labels, mesh, options, prepare, refine, set_analysis, set_options, set_refinement, solve, update_fem_mesh
 from .errors import Cancelled, InvalidInput, NoMesher, PolycubeError, SolverFailed, StageFailed
 
 __all__ = [
@@ -29,6 +31,7 @@ __all__ = [
     "labels",
     "mesh",
     "options",
+    "prepare",
     "refine",
     "set_analysis",
     "set_options",

@@ -57,6 +57,18 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     return _run("mesh", shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
 
 
+def prepare(shape_or_object, **options):
+    """A Session on one solid, for meshes that differ in counts, sizes, divisions or order: `session.mesh(size=3)` as mesh(), several times.
+
+    The first mesh makes tetrahedra, labels, map and blocks, those after it go on from there. The session is a process of its own; session.close(), or a with block, ends it.
+    """
+    from .session import Session
+
+    shape = shapes.shape_of(shape_or_object)
+    shapes.check_solid(shape)
+    return Session(shape.copy(), _given(**options))
+
+
 def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
     """The labels that mesh() would start from, to look at: a LabelResult. Takes a second or two where the mesh takes minutes.
 

@@ -23,7 +23,7 @@ _UNITS = {"mm": "mm", "degrees": "deg"}
 #: Only one of them can say how fine the mesh is; the engine refuses more.
 FINENESS = ("size", "hexes", "coarsest")
 #: Types of options that name places on the part.
-PLACES = ("labels", "frame", "divisions", "sizes", "faces")
+PLACES = ("labels", "frame", "divisions", "sizes", "bias", "faces")
 _MOST = 2**31 - 1
 
 

@@ -28,21 +28,19 @@ _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
 
 
 class Job:
-    """A folder with shape and options, ready to run; close() removes it. `what` is to be made of them: "mesh" or "labels"."""
+    """A folder with shape and options, ready to run; close() removes it. `what` is to be made of them: "mesh", "labels" or, for session.py, "session"."""
 
     def __init__(self, shape, options, what="mesh"):
         self.what = what
         #: of the child, as far as it has told
         self.stage = ""
-        self._limit = options.get("time_limit")
+        self.limit = options.get("time_limit")
         self._mesher = engine.find()
         self.folder = tempfile.mkdtemp(prefix="polycube-job-", dir=preferences.folder())
-        options = {**options, "threads": options.get("threads") or preferences.threads()}
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
                 file.write(shape.exportBrepToString())
-            with open(os.path.join(self.folder, "options.json"), "w", encoding="utf-8") as file:
-                json.dump({name: _json_value(value) for name, value in options.items()}, file)
+            write_options(self.folder, options)
         except BaseException:
             self.close()
             raise
@@ -70,14 +68,16 @@ class Job:
 
     def out_of_time(self, seconds):
         """Whether a child that has run for so many seconds is to be killed: it has not ended by itself at the time limit."""
-        limit = self._limit or 0  # one that is not positive the child refuses
+        limit = self.limit or 0  # one that is not positive the child refuses
         return limit > 0 and seconds > limit + _GRACE
 
     @staticmethod
     def parse(line):
-        """("progress", (stage, fraction)) or ("log", text) from one line of the child's standard output."""
+        """("progress", (stage, fraction)), ("log", text) or, of a session, ("done", status) from one line of the child's standard output."""
         try:
             message = json.loads(line)
+            if "done" in message:
+                return "done", int(message["done"])
             if "progress" in message:
                 stage, fraction = message["progress"]
                 return "progress", (str(stage), float(fraction))
@@ -87,20 +87,32 @@ class Job:
 
     def finish(self, status, last_words=""):
         """The MeshResult or LabelResult of a child that ended with `status`, or one of the errors. `last_words`: end of its standard error."""
-        if status == 0:
-            return result.load(self.folder) if self.what == "mesh" else result.load_labels(self.folder)
-        path = os.path.join(self.folder, "error.json")
-        if os.path.exists(path):
-            with open(path, encoding="utf-8") as file:
-                found = json.load(file)
-            if found["kind"] == "StageFailed":
-                raise StageFailed(found["message"], found["stage"], found["entities"])
-            # The engine writes options as on the command line, --time-limit; here they are time_limit.
-            raise _KINDS[found["kind"]](re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"]))
-        reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
-        if status < 0:
-            raise StageFailed("the mesher was ended by {}: {}".format(_signal_name(-status), reason), self.stage or "start", [])
-        raise StageFailed("the mesher ended unexpectedly (status {}): {}".format(status, reason), self.stage or "start", [])
+        return outcome(self.folder, self.what, status, last_words, self.stage)
+
+
+def write_options(folder, options):
+    """Leaves the options in a job's folder, with the threads of the preferences where none are given."""
+    options = {**options, "threads": options.get("threads") or preferences.threads()}
+    with open(os.path.join(folder, "options.json"), "w", encoding="utf-8") as file:
+        json.dump({name: _json_value(value) for name, value in options.items()}, file)
+
+
+def outcome(folder, what, status, last_words="", stage=""):
+    """What a child left in a folder: the MeshResult or LabelResult, or one of the errors. `stage`: the last one that it spoke of."""
+    if status == 0:
+        return result.load_labels(folder) if what == "labels" else result.load(folder)
+    path = os.path.join(folder, "error.json")
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            found = json.load(file)
+        if found["kind"] == "StageFailed":
+            raise StageFailed(found["message"], found["stage"], found["entities"])
+        # The engine writes options as on the command line, --time-limit; here they are time_limit.
+        raise _KINDS[found["kind"]](re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"]))
+    reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
+    if status < 0:
+        raise StageFailed("the mesher was ended by {}: {}".format(_signal_name(-status), reason), stage or "start", [])
+    raise StageFailed("the mesher ended unexpectedly (status {}): {}".format(status, reason), stage or "start", [])
 
 
 def _signal_name(number):
@@ -123,8 +135,8 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
         env=job.environment(),
         text=True,
     )
-    watcher = _Watcher(child, cancel, job)
-    stderr, stdout = _Drain(child.stderr), _Lines(child.stdout)
+    watcher = Watcher(child, cancel, job)
+    stderr, stdout = Drain(child.stderr), Lines(child.stdout)
     try:
         for line in stdout.each(idle):
             kind, value = job.parse(line.rstrip("\n"))
@@ -140,8 +152,7 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
         child.wait()
         raise
     finally:
-        watcher.finished.set()
-        watcher.join()
+        watcher.end()
         last_words = stderr.text()
     if watcher.error:
         raise watcher.error
@@ -173,7 +184,7 @@ def kill_tree(pid):
         pass
 
 
-class _Lines(threading.Thread):
+class Lines(threading.Thread):
     """Reads a pipe line by line."""
 
     def __init__(self, pipe):
@@ -201,7 +212,7 @@ class _Lines(threading.Thread):
                 idle()
 
 
-class _Drain(threading.Thread):
+class Drain(threading.Thread):
     """Reads a pipe to its end, so that the child never blocks on it."""
 
     def __init__(self, pipe):
@@ -218,7 +229,7 @@ class _Drain(threading.Thread):
         return self._text
 
 
-class _Watcher(threading.Thread):
+class Watcher(threading.Thread):
     """Kills the child when `cancel` says so or the job is out of time; `reason` tells which. What `cancel` raises ends the job too; `error` is it."""
 
     def __init__(self, child, cancel, job):
@@ -242,3 +253,8 @@ class _Watcher(threading.Thread):
             if self.reason or self.error:
                 kill_tree(self._child.pid)
                 return
+
+    def end(self):
+        """No more watching."""
+        self.finished.set()
+        self.join()

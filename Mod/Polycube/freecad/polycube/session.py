@@ -1,0 +1,101 @@
+"""One shape meshed several times by one child process, which keeps what does not depend on counts and sizes."""
+
+import os
+import subprocess
+
+from . import job
+from .errors import Cancelled
+
+#: Of these only one can say how fine a mesh is.
+_FINENESS = ("size", "hexes", "coarsest")
+
+
+class Session:
+    """Made by polycube.prepare(); close() ends it, as does the end of a with block. A mesh that was cancelled takes the child with it: the next one starts anew."""
+
+    def __init__(self, shape, options):
+        self._shape, self._options = shape, options
+        self._job = self._child = None
+        self._meshes = 0
+
+    def mesh(self, progress=None, log=None, cancel=None, **options):
+        """As polycube.mesh(), with the options of prepare() where they are not given here."""
+        from . import option_table
+
+        more = option_table.plain(options)
+        given = {name: value for name, value in self._options.items() if not (name in _FINENESS and set(more) & set(_FINENESS))}
+        return self._make({**given, **more}, progress, log, cancel)
+
+    def close(self):
+        """Ends the child and removes its folder."""
+        if self._child:
+            job.kill_tree(self._child.pid)
+            self._child.wait()
+            self._child.stdin.close()
+            self._job.close()
+        self._job = self._child = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __del__(self):
+        self.close()
+
+    def _start(self):
+        self._job = job.Job(self._shape, self._options, "session")
+        self._child = subprocess.Popen(
+            self._job.command(),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            env=self._job.environment(),
+            text=True,
+        )
+        self._stderr, self._stdout = job.Drain(self._child.stderr), job.Lines(self._child.stdout)
+
+    def _make(self, options, progress, log, cancel):
+        if not self._child or self._child.poll() is not None:
+            self.close()
+            self._start()
+        self._meshes += 1
+        name = str(self._meshes)
+        folder = os.path.join(self._job.folder, name)
+        os.mkdir(folder)
+        job.write_options(folder, options)
+        self._job.limit = options.get("time_limit")
+        watcher = job.Watcher(self._child, cancel, self._job)
+        status = None
+        try:
+            self._child.stdin.write(name + "\n")
+            self._child.stdin.flush()
+            for line in self._stdout.each():
+                kind, value = self._job.parse(line.rstrip("\n"))
+                if kind == "done":
+                    status = value
+                    break
+                if kind == "progress":
+                    self._job.stage = value[0]
+                    if progress:
+                        progress(*value)
+                elif kind == "log" and log:
+                    log(value)
+        except BrokenPipeError:
+            pass  # it has died; its last words are below
+        except BaseException:
+            watcher.end()
+            self.close()
+            raise
+        watcher.end()
+        if status is None:
+            last_words = "" if watcher.reason or watcher.error else self._stderr.text()
+            status, stage = self._child.wait(), self._job.stage
+            self.close()
+            if watcher.error:
+                raise watcher.error
+            if watcher.reason:
+                raise Cancelled(watcher.reason)
+            return job.outcome(folder, "mesh", status or 1, last_words, stage)
+        return job.outcome(folder, "mesh", status)

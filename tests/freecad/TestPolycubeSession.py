@@ -1,0 +1,57 @@
+"""polycube.prepare: one part, several meshes, one map."""
+
+import os
+import unittest
+
+import FreeCAD
+import numpy as np
+import Part
+
+from freecad import polycube
+
+
+def stages(result):
+    return {stage["name"] for stage in result.report["stages"]}
+
+
+class Sessions(unittest.TestCase):
+    def setUp(self):
+        plate = Part.makeBox(40, 30, 8).cut(Part.makeCylinder(5, 8, FreeCAD.Vector(20, 15, 0)))
+        self.session = polycube.prepare(plate, order=1, size=4)
+        self.addCleanup(self.session.close)
+
+    def test_sizes_share_the_map(self):
+        first = self.session.mesh()
+        self.assertIn("deform", stages(first))
+        finer = self.session.mesh(size=FreeCAD.Units.Quantity("3 mm"))
+        self.assertFalse({"tet", "deform", "blocks"} & stages(finer))
+        self.assertGreater(len(finer.hexes), len(first.hexes))
+        self.assertLess(abs(len(self.session.mesh(hexes=3000).hexes) - 3000), 450)
+        np.testing.assert_array_equal(self.session.mesh().nodes, first.nodes)
+
+    def test_errors_leave_it_usable(self):
+        with self.assertRaises(polycube.InvalidInput):
+            self.session.mesh(divisions={"Edge99": 3})
+        with self.assertRaises(polycube.InvalidInput):
+            self.session.mesh(colour="red")
+        with self.assertRaises(polycube.Cancelled):
+            self.session.mesh(size=0.4, cancel=lambda: True)
+        with self.assertRaises(polycube.Cancelled):
+            self.session.mesh(size=0.4, time_limit=0.1)
+        lines = []
+        self.assertGreater(len(self.session.mesh(log=lines.append).hexes), 0)
+        self.assertTrue(lines)
+
+    def test_nothing_is_left(self):
+        with self.session as session:
+            session.mesh()
+            folder, child = session._job.folder, session._child
+            self.assertTrue(os.path.isdir(folder))
+        self.assertFalse(os.path.exists(folder))
+        self.assertIsNotNone(child.poll())
+
+    def test_no_solid_no_session(self):
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.prepare(Part.Shape())
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.prepare(Part.makePlane(10, 10)).mesh()

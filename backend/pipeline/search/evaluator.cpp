@@ -41,6 +41,7 @@ constexpr int kNeighbourRounds = 3;
 // Number of cells asked for: how far off the grid's may be (logarithm), and with padding; the number goes with the 2.5th power of the scale or less, where bounds
 // hold some of them; a scale that many times off is not tried.
 constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1, kCountPower = 0.4, kCountReach = 8;
+constexpr int kCountRounds = 8, kRecounts = 2;
 // Times that round CAD edges get more cells.
 constexpr int kRoundingRounds = 2;
 // eta of section 6.2 for the coarsest mesh.
@@ -107,11 +108,7 @@ class Evaluator::Work {
 
   Outcome anew(const Plan& plan) {
     Draft draft = fitted(plan, options_.divisions);
-    const double grid = static_cast<double>(draft.complex.mesh.hexes.size()), all = static_cast<double>(draft.padded.mesh.hexes.size());
-    if (options_.hexes > 0 && std::abs(all / options_.hexes - 1) > kPaddedMiss && fits_left_ > 0) {
-      grid_share_ = grid / all;
-      draft = fitted(plan, options_.divisions);
-    }
+    if (options_.hexes > 0) recount(plan, draft);
     Outcome outcome = closed(std::move(draft));
     if (outcome.kind == Outcome::Kind::kMesh) retry_padded(plan, outcome);
     return counted(std::move(outcome));
@@ -161,6 +158,22 @@ class Evaluator::Work {
     }
     outcome.made = std::make_shared<const Draft>(std::move(draft));
     return outcome;
+  }
+
+  // Where padding takes the number of cells away from the one asked for, a grid with its share of them.
+  void recount(const Plan& plan, Draft& draft) {
+    const auto miss = [&](const Draft& d) { return std::abs(static_cast<double>(d.padded.mesh.hexes.size()) / options_.hexes - 1); };
+    for (int round = 0; round < kRecounts && miss(draft) > kPaddedMiss && fits_left_ > 0; ++round) {
+      grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / static_cast<double>(draft.padded.mesh.hexes.size());
+      try {
+        Draft next = fitted(plan, options_.divisions);
+        if (next.fitted.inverted > draft.fitted.inverted || miss(next) >= miss(draft)) return;
+        draft = std::move(next);
+      } catch (const StageFailed& e) {
+        monitor_.log("with another number of cells: " + e.stage() + ": " + e.what());
+        return;
+      }
+    }
   }
 
   // Padding can add cells to a division that has a maximum: fewer are asked for then.
@@ -292,15 +305,21 @@ class Evaluator::Work {
     if (options_.hexes > 0) {
       const double wanted = options_.hexes * std::pow(plan.refine, 3) * grid_share_;
       const auto miss = [&](const Quantization& q) { return std::abs(std::log(cell_count(s.blocks, q.value) / wanted)); };
-      double tried = scale;
-      for (Quantization next = result; miss(next) > kCountMiss; ) {
-        const double factor = std::pow(wanted / cell_count(s.blocks, next.value), kCountPower);
-        tried *= factor;
+      // Between two scales that give fewer and more: the next by how the number goes with the scale, or the middle once both are known.
+      double tried = scale, low = 0, high = 0;
+      double best = miss(result);
+      Quantization next = result;
+      for (int round = 0; round < kCountRounds && best > kCountMiss; ++round) {
+        const double cells = cell_count(s.blocks, next.value);
+        (cells < wanted ? low : high) = tried;
+        tried = low > 0 && high > 0 ? std::sqrt(low * high) : tried * std::pow(wanted / cells, kCountPower);
         if (tried < scale / kCountReach || tried > scale * kCountReach) break;
-        bounds = own;
-        next = integers(s, tried, divisions, room, bounds);
-        if (miss(next) >= miss(result)) break;
+        std::vector<DistanceConstraint> asked = own;
+        next = integers(s, tried, divisions, room, asked);
+        if (miss(next) >= best) continue;
+        best = miss(next);
         result = next;
+        bounds = std::move(asked);
       }
       scale = tried;
     }

@@ -232,6 +232,14 @@
       <translation>Zahl der Elemente um zylindrische Flächen</translation>
     </message>
     <message>
+      <source>Bias</source>
+      <translation>Wichtung</translation>
+    </message>
+    <message>
+      <source>Length of the last element along edges over that of the first</source>
+      <translation>Länge des letzten Elements entlang von Kanten zu der des ersten</translation>
+    </message>
+    <message>
       <source>Faces to keep</source>
       <translation>Flächen, die bleiben</translation>
     </message>
@@ -536,8 +544,8 @@
       <translation>Netz übernehmen</translation>
     </message>
     <message>
-      <source>0 is automatic: {} at most</source>
-      <translation>0 ist automatisch: höchstens {}</translation>
+      <source>0 is automatic: near to {}</source>
+      <translation>0 ist automatisch: etwa {}</translation>
     </message>
     <message>
       <source>about {} cells</source>
@@ -553,7 +561,7 @@
     </message>
     <message>
       <source>Edge length of the hexahedra. Default: by the part, near to bounding-box diagonal / 20.</source>
-      <translation>Kantenlänge der Hexaeder. Vorgabe: nach dem Teil, nahe bei der Diagonale des Hüllquaders / 20.</translation>
+      <translation>Kantenlänge der Hexaeder. Ohne Angabe: nach dem Bauteil, etwa Diagonale der Hüllbox / 20.</translation>
     </message>
     <message>
       <source>Hexes</source>
@@ -657,7 +665,7 @@
     </message>
     <message>
       <source>Ratio of the lengths of neighbouring hexahedra, at most, where they grow away from small ones. 1: evenly spaced in every block.</source>
-      <translation>Verhältnis der Längen benachbarter Hexaeder, höchstens, wo sie von kleinen weg wachsen. 1: in jedem Block gleich verteilt.</translation>
+      <translation>Verhältnis der Längen benachbarter Hexaeder, höchstens, wo sie von kleinen weg wachsen. 1: gleichmäßig in jedem Block.</translation>
     </message>
     <message>
       <source>Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.</source>
@@ -672,12 +680,8 @@
       <translation>Andere Kantenlängen an CAD-Flächen und entlang der Achsen, wie Face3=0.5,X=2.</translation>
     </message>
     <message>
-      <source>Bias</source>
-      <translation>Verdichtung</translation>
-    </message>
-    <message>
       <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
-      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante geteilt durch die des ersten, wie Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
+      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante zu der des ersten, wie Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
     </message>
     <message>
       <source>Feature angle</source>

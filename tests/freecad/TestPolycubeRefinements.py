@@ -62,12 +62,12 @@ class Demands(RefinementTest):
         self.assertGreater(self.mesh.Hexahedra, before)
 
     def test_as_options(self):
-        asked = [("size", ["Face1", "Face2"], 1.5), ("keep", ["Face3"], None), ("axis", ["Face1"], "-X"), ("layers", ["Face1", "Face2"], "3..")]
+        asked = [("size", ["Face1", "Face2"], 1.5), ("keep", ["Face3"], None), ("axis", ["Face1"], "-X"), ("layers", ["Face1", "Face2"], "3.."), ("bias", ["Edge2"], 3)]
         made = [polycube.refine(self.mesh, *one) for one in asked]
         options = refinements.with_refinements({"sizes": "X=2", "labels": {"Face2": "+X"}, "size": 5}, self.mesh)
-        wanted = {"sizes": "X=2,Face1=1.5,Face2=1.5", "keep_faces": "Face3", "labels": {"Face2": "+X", "Face1": "-X"}, "divisions": "Face1-Face2=3.."}
+        wanted = {"sizes": "X=2,Face1=1.5,Face2=1.5", "keep_faces": "Face3", "labels": {"Face2": "+X", "Face1": "-X"}, "divisions": "Face1-Face2=3..", "bias": "Edge2=3.0"}
         self.assertEqual(options, {"size": 5, **wanted})
-        self.assertEqual([refinements.value_of(obj) for obj in made[1:]], ["", "-X", "3.."])
+        self.assertEqual([refinements.value_of(obj) for obj in made[1:]], ["", "-X", "3..", "3.0"])
         for obj in made:
             polycube.set_refinement(obj, suppressed=True)
         self.assertEqual(refinements.with_refinements({"size": 5}, self.mesh), {"size": 5})
@@ -102,6 +102,8 @@ class Faults(RefinementTest):
             ("divisions", ["Edge1"], "3,5", "not a number of elements"),
             ("bore", ["Face1"], 8, "Face1 has no full circle"),
             ("axis", ["Face1"], "up", "is not one of"),
+            ("bias", ["Edge1"], 0, "is not a ratio"),
+            ("bias", ["Edge1"], "wide", "is not a ratio"),
             ("colour", ["Face1"], "red", "there is no refinement 'colour'"),
         ):
             with self.subTest(kind=kind, places=places, value=value):

@@ -53,8 +53,8 @@ class FromTheSelection(RefineTest):
             ((), set()),
             (("Face1",), {"size", "bore", "keep", "axis"}),
             (("Face1", "Face2"), {"size", "bore", "keep", "axis", "layers"}),
-            (("Edge1", "Edge2"), {"divisions"}),
-            (("Face1", "Edge2"), {"size", "bore", "keep", "axis", "divisions"}),
+            (("Edge1", "Edge2"), {"divisions", "bias"}),
+            (("Face1", "Edge2"), {"size", "bore", "keep", "axis", "divisions", "bias"}),
             (("Vertex1",), set()),
         ):
             with self.subTest(names=names):

@@ -22,9 +22,12 @@ _ORDERS = ["1st", "2nd"]
 _UNITS = {"mm": "mm", "degrees": "deg"}
 #: Only one of them can say how fine the mesh is; the engine refuses more.
 FINENESS = ("size", "hexes", "coarsest")
-#: Types of options that name places on the part.
-PLACES = ("labels", "frame", "divisions", "sizes", "bias", "faces")
 _MOST = 2**31 - 1
+
+
+def is_of_places(option):
+    """Whether an option names places on the part, in text of its own form."""
+    return option["type"] not in ("bool", "int", "double", "string")
 
 
 def title(option):

@@ -66,7 +66,10 @@ def predict(shape, options):
         for axis, (low, high) in enumerate(boxes[number - 1]):
             flat = high - low < _SAME * (whole[axis][1] - whole[axis][0])
             stretches[axis].append((*(whole[axis] if flat else (low, high)), local))
-    return Prediction(plain, _cells(shape, whole, stretches, [axes.get(name, size) for name in "XYZ"]))
+    refined = _cells(shape, whole, stretches, [axes.get(name, size) for name in "XYZ"])
+    if options.get("hexes"):  # the engine meets it, whatever asks for smaller cells
+        return Prediction(options["hexes"], options["hexes"] * refined / plain)
+    return Prediction(plain, refined)
 
 
 def predict_again(shape, options, meshed_options, cells):
@@ -75,6 +78,8 @@ def predict_again(shape, options, meshed_options, cells):
     before = predict(shape, meshed_options)
     if not expected or not before:
         return expected
+    if options.get("hexes"):
+        return expected  # the engine meets it
     factor = cells / before.cells
     return Prediction(factor * expected.plain, factor * expected.cells)
 

@@ -135,7 +135,7 @@ class RefineSection(Section):
         if kind == "size":
             shape = shapes.shape_of(self._panel.part)
             return float("{:.2g}".format(prediction.size_of(shape, self._panel.size_form.values()) / 2))
-        return {"divisions": "4", "layers": "3..", "bore": "16", "axis": "+X"}.get(kind)
+        return {"divisions": "4", "layers": "3..", "bore": "16", "bias": 2.0, "axis": "+X"}.get(kind)
 
     def _edited(self, item):
         if self._filling:
@@ -210,8 +210,8 @@ def _as_refinement(option, item):
         return "keep", [item], None
     if option == "sizes" and what.startswith("Face"):
         return "size", [what], float(value)
-    if option == "divisions" and what.startswith("Edge"):
-        return "divisions", [what], value
+    if option in ("divisions", "bias") and what.startswith("Edge"):
+        return option, [what], value
     if option == "divisions" and len(names) == 2:
         return "layers", names, value
     return None

@@ -1,5 +1,7 @@
 """Refinements: objects in the tree below a mesh, each of which asks something of the mesh at places of its part."""
 
+import math
+
 import FreeCAD
 
 from . import compat, fem_mesh, option_table, shapes
@@ -19,6 +21,7 @@ class Kind:
 
 #: value: type, name and default of the property that holds it, and what it means; None where there is none.
 _ELEMENTS = ("App::PropertyString", "Elements", "4", "Number of elements: 6 exactly, 3.. at least, ..4 at most, 2..5")
+_RATIO = ("App::PropertyFloat", "Ratio", 2.0, "From the start of the edge to its end")
 KINDS = {
     kind.name: kind
     for kind in (
@@ -26,6 +29,7 @@ KINDS = {
         Kind("divisions", noop("Divisions"), noop("Number of elements along edges"), "divisions", "Edge", _ELEMENTS),
         Kind("layers", noop("Layers"), noop("Number of elements between two opposite faces"), "divisions", "Face", _ELEMENTS, 2),
         Kind("bore", noop("Elements round a bore"), noop("Number of elements round cylindrical faces"), "divisions", "Face", _ELEMENTS),
+        Kind("bias", noop("Bias"), noop("Length of the last element along edges over that of the first"), "bias", "Edge", _RATIO),
         Kind("keep", noop("Faces to keep"), noop("Faces none of whose edges is ignored"), "keep_faces", "Face", None),
         Kind("axis", noop("Axis of faces"), noop("The axis that faces take in the blocks"), "labels", "Face", ("App::PropertyEnumeration", "Axis", _AXES, "Axis")),
     )
@@ -104,6 +108,14 @@ def _checked(kind, value):
         if value not in _AXES:
             raise InvalidInput("{}: '{}' is not one of {}".format(kind.title, value, ", ".join(_AXES)))
         return value
+    if kind.option == "bias":
+        try:
+            ratio = float(value)
+        except (TypeError, ValueError):
+            ratio = math.nan
+        if not (ratio > 0 and math.isfinite(ratio)):
+            raise InvalidInput("{}: '{}' is not a ratio, a number greater than 0".format(kind.title, value))
+        return ratio
     text = str(value).replace(" ", "")
     low, dots, high = text.partition("..")
     if not all(part.isdigit() and int(part) > 0 for part in (low, high) if part) or not (low or high) or (not dots and not low):
@@ -206,7 +218,8 @@ class Refinement(Stateless):
         obj.Kind = kind
         obj.setEditorMode("Kind", 1)
         obj.addProperty("App::PropertyLinkSubListGlobal", "References", "Refinement", KINDS[kind].meaning)
-        obj.addProperty("App::PropertyBool", "Suppressed", "Refinement", "Whether the mesh does without it")
+        if not hasattr(obj, "Suppressed"):  # FreeCAD 1.x may have it for every object of FEM
+            obj.addProperty("App::PropertyBool", "Suppressed", "Refinement", "Whether the mesh does without it")
         obj.addProperty("App::PropertyString", "Fault", "Refinement", "What is wrong with it")
         obj.setEditorMode("Fault", 1)
         if KINDS[kind].value:
@@ -221,7 +234,7 @@ class Refinement(Stateless):
             obj.Label2 = wrong  # FreeCAD's tree shows it
 
     def onChanged(self, obj, name):
-        if "Restore" in obj.State or name not in ("References", "Suppressed", "Size", "Elements", "Axis"):
+        if "Restore" in obj.State or name not in ("References", "Suppressed", "Size", "Elements", "Ratio", "Axis"):
             return
         mesh = mesh_of(obj)
         if mesh is not None:

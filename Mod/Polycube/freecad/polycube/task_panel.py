@@ -74,9 +74,9 @@ class MeshPanel:
         form.setWindowTitle(tr(_TITLE))
         form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
         options = option_table.document_options()
-        advanced = [option for option in options if option["advanced"] and option["type"] not in fields.PLACES]
-        places = [option for option in options if option["type"] in fields.PLACES and option["type"] not in ("labels", "frame")]
-        plain = [option for option in options if not option["advanced"] and option["type"] not in fields.PLACES]
+        advanced = [option for option in options if option["advanced"] and not fields.is_of_places(option)]
+        places = [option for option in options if fields.is_of_places(option) and option["type"] not in ("labels", "frame")]
+        plain = [option for option in options if not option["advanced"] and not fields.is_of_places(option)]
         form.parameters = QtGui.QWidget()
         form.part = QtGui.QLabel()
         form.part.setWordWrap(True)
@@ -473,7 +473,7 @@ class MeshPanel:
             if shape.isNull():
                 return
             automatic = FreeCAD.Units.Quantity(prediction.size_of(shape, {}), FreeCAD.Units.Length).UserString
-            lines = [tr("0 is automatic: {} at most").format(automatic)]
+            lines = [tr("0 is automatic: near to {}").format(automatic)]
             expected = self._prediction(refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None))
         except InvalidInput:  # Apply tells
             return

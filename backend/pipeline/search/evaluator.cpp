@@ -299,9 +299,10 @@ class Evaluator::Work {
       const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
       room.insert(room.end(), more.begin(), more.end());
     }
-    const std::vector<DistanceConstraint> own = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_);
+    const std::vector<DistanceConstraint> own =
+        plan.bounded ? part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_) : std::vector<DistanceConstraint>();
     std::vector<DistanceConstraint> bounds = own;
-    Quantization result = integers(s, scale, divisions, room, bounds);
+    Quantization result = integers(s, scale, divisions, room, bounds, plan.bounded);
     if (options_.hexes > 0) {
       const double wanted = options_.hexes * std::pow(plan.refine, 3) * grid_share_;
       const auto miss = [&](const Quantization& q) { return std::abs(std::log(cell_count(s.blocks, q.value) / wanted)); };
@@ -315,7 +316,7 @@ class Evaluator::Work {
         tried = low > 0 && high > 0 ? std::sqrt(low * high) : tried * std::pow(wanted / cells, kCountPower);
         if (tried < scale / kCountReach || tried > scale * kCountReach) break;
         std::vector<DistanceConstraint> asked = own;
-        next = integers(s, tried, divisions, room, asked);
+        next = integers(s, tried, divisions, room, asked, plan.bounded);
         if (miss(next) >= best) continue;
         best = miss(next);
         result = next;
@@ -327,8 +328,9 @@ class Evaluator::Work {
     return result;
   }
 
-  // `bounds` get those of neighbouring cells added.
-  Quantization integers(const Structure& s, double scale, const Divisions& divisions, const std::vector<DistanceConstraint>& room, std::vector<DistanceConstraint>& bounds) const {
+  // `bounds` get those of neighbouring cells added where cells are to grow from small ones (`growing`).
+  Quantization integers(const Structure& s, double scale, const Divisions& divisions, const std::vector<DistanceConstraint>& room,
+                        std::vector<DistanceConstraint>& bounds, bool growing) const {
     MeshOptions demanded = options_;
     demanded.divisions = divisions;
     QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
@@ -336,7 +338,7 @@ class Evaluator::Work {
     add(room);
     add(bounds);
     Quantization result = quantize(s.blocks, s.map, asked, monitor_);
-    for (int round = 0; round < kNeighbourRounds && !options_.coarsest; ++round) {
+    for (int round = 0; round < kNeighbourRounds && growing && !options_.coarsest; ++round) {
       const std::vector<DistanceConstraint> more = neighbour_bounds(s.map, s.blocks, result.value, options_.growth, 1 / scale);
       if (more.empty()) break;
       add(more);
@@ -476,6 +478,7 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   r.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
 
   if (!q.optimal) r.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
+  if (!draft.plan.bounded) r.warnings.push_back("the size alone decides: with the cells that walls and circles ask for the mesh would be poor or none");
   if (draft.plan.refine != 1) r.warnings.push_back("the cells are finer than asked for");
   for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
   for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");

@@ -33,6 +33,12 @@ std::vector<Plan> keeping_plans(const MeshOptions& options, std::vector<LabelVar
     }
   };
   add("", 0, kBestLabellings, 1, 1);
+  // Where layers and circles squeeze cells into narrow corners, or fold them, the size alone may do.
+  if (!options.coarsest && !labels.empty()) {
+    add(", the size alone", 0, 1, 1, 1);
+    list.back().bounded = false;
+    list.back().for_poor = true;
+  }
   if (!options.coarsest) add(", finer", 0, kBestLabellings, kFinerGrid, 1);
   add("", kBestLabellings, kLabellings, 1, 1);
   add(", other tets", 0, kBestLabellings, 1, kOtherTets);

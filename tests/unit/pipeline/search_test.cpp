@@ -273,12 +273,13 @@ TEST(Plans, KeepEveryEdgeInOrder) {
   std::vector<LabelVariant> labels(6);
   for (int i = 0; i < 6; ++i) labels[i].frame = i;
   const std::vector<Plan> plans = keeping_plans({}, labels);
-  ASSERT_EQ(plans.size(), 8u);
+  ASSERT_EQ(plans.size(), 9u);
   std::vector<int> frames;
   for (const Plan& p : plans) frames.push_back(p.structure.labels.frame);
-  EXPECT_EQ(frames, (std::vector{0, 1, 0, 1, 2, 3, 0, 1}));
-  EXPECT_GT(plans[2].refine, 1);
-  EXPECT_LT(plans[6].structure.tet_size, 1);
+  EXPECT_EQ(frames, (std::vector{0, 1, 0, 0, 1, 2, 3, 0, 1}));
+  EXPECT_TRUE(!plans[2].bounded && plans[2].for_poor);
+  EXPECT_GT(plans[3].refine, 1);
+  EXPECT_LT(plans[7].structure.tet_size, 1);
   for (const Plan& p : plans) EXPECT_TRUE(p.may_wait && p.structure.min_bend == 0 && p.structure.features) << p.name;
   MeshOptions coarsest;
   coarsest.coarsest = true;

@@ -15,18 +15,21 @@ namespace polycube {
 namespace {
 
 std::shared_ptr<const CadModel::Shape> checked(const FileShape& read, bool sew, const Monitor& monitor) {
-  const FoundSolid found = find_solid(read, sew, monitor);
+  return described(find_solid(read, sew, monitor), read.warnings, monitor);
+}
+
+}  // namespace
+
+std::shared_ptr<const CadModel::Shape> described(const FoundSolid& found, const std::vector<std::string>& reading, const Monitor& monitor) {
   try {
     const auto shape = catching_faults([&] { return describe(found.solid, found.numbers, monitor); });
-    shape->warnings = read.warnings;
+    shape->warnings = reading;
     shape->warnings.insert(shape->warnings.end(), found.warnings.begin(), found.warnings.end());
     return shape;
   } catch (const Standard_Failure& failure) {
     throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + std::string(failure.GetMessageString()));
   }
 }
-
-}  // namespace
 
 CadModel CadModel::read(const std::string& path, const ReadOptions& options, const Monitor& monitor) {
   const FileShape shape = read_shape(path, options, monitor);

@@ -113,6 +113,8 @@ class CadModel {
   const Shape& shape() const { return *shape_; }
 
  private:
+  friend struct Assembly;
+  friend class ConformalBuilder;
   explicit CadModel(std::shared_ptr<const Shape> shape) : shape_(std::move(shape)) {}
   std::shared_ptr<const Shape> shape_;
 };

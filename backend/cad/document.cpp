@@ -1,7 +1,9 @@
 // FreeCAD documents (.FCStd): which object is the part, and where FreeCAD shows it.
+#include <BRep_Builder.hxx>
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
+#include <TopoDS_Compound.hxx>
 #include <gp_Quaternion.hxx>
 #include <gp_Trsf.hxx>
 #include <zip.h>
@@ -115,23 +117,24 @@ class Document {
   }
 
   FileShape take(const std::string& wanted, const Monitor& monitor) {
-    std::vector<const DocumentObject*> candidates;
     if (!wanted.empty()) {
-      // Names are unique, labels need not be; a name goes first.
-      const DocumentObject* object = find(wanted);
-      for (const DocumentObject& o : objects_)
-        if (!object && o.label == wanted) object = &o;
-      if (object && !object->shape_file.empty()) return shape_of(*object, monitor);
-      if (object) candidates = finals(object->name, monitor);
-      if (candidates.empty()) throw InvalidInput(path_ + " has no object with a shape named '" + wanted + "'");
-    } else {
-      candidates = finals("", monitor);
-      if (candidates.empty()) throw InvalidInput(path_ + (unreadable_.empty() ? " has no object with a shape" : ": " + unreadable_));
+      std::vector<const DocumentObject*> chosen = named(wanted, monitor);
+      if (chosen.empty()) {
+        std::istringstream list(wanted);
+        for (std::string one; std::getline(list, one, ',');) {
+          const std::vector<const DocumentObject*> more = named(one, monitor);
+          if (more.empty()) throw InvalidInput(path_ + " has no object with a shape named '" + one + "'");
+          chosen.insert(chosen.end(), more.begin(), more.end());
+        }
+      }
+      return together(chosen, monitor);
     }
-    if (candidates.size() == 1) return shape_of(*candidates.front(), monitor);
+    const std::vector<const DocumentObject*> candidates = finals("", monitor);
+    if (candidates.empty()) throw InvalidInput(path_ + (unreadable_.empty() ? " has no object with a shape" : ": " + unreadable_));
+    if (candidates.size() == 1) return together(candidates, monitor);
     std::string names;
     for (const DocumentObject* object : candidates) names += (names.empty() ? "" : ", ") + object->title();
-    throw InvalidInput(path_ + " has several solids: choose one with --object (" + names + ")");
+    throw InvalidInput(path_ + " has several solids: choose one with --object (" + names + "), or some as --object A,B");
   }
 
  private:
@@ -154,6 +157,36 @@ class Document {
     }
     object.links.erase(object.name);
     return object;
+  }
+
+  /// The object of that name or label, or what is in it where it has no shape of its own.
+  std::vector<const DocumentObject*> named(const std::string& wanted, const Monitor& monitor) {
+    // Names are unique, labels need not be; a name goes first.
+    const DocumentObject* object = find(wanted);
+    for (const DocumentObject& o : objects_)
+      if (!object && o.label == wanted) object = &o;
+    if (!object) return {};
+    return object->shape_file.empty() ? finals(object->name, monitor) : std::vector<const DocumentObject*>{object};
+  }
+
+  /// The shape of one object, or a compound of several.
+  FileShape together(const std::vector<const DocumentObject*>& objects, const Monitor& monitor) {
+    std::vector<FileShape> shapes;
+    for (const DocumentObject* object : objects) {
+      FileShape& read = shapes.emplace_back(shape_of(*object, monitor));
+      for (TopExp_Explorer it(read.shape, TopAbs_SOLID); it.More(); it.Next())
+        read.labels.emplace_back(it.Current(), object->label.empty() ? object->name : object->label);
+    }
+    if (shapes.size() == 1) return shapes.front();
+    FileShape all;
+    TopoDS_Compound compound;
+    BRep_Builder().MakeCompound(compound);
+    for (FileShape& read : shapes) {
+      BRep_Builder().Add(compound, read.shape);
+      all.labels.insert(all.labels.end(), read.labels.begin(), read.labels.end());
+    }
+    all.shape = compound;
+    return all;
   }
 
   DocumentObject* find(const std::string& name) {

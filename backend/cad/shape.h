@@ -100,6 +100,7 @@ struct FileShape {
   TopoDS_Shape shape;
   double tolerance = 0;  ///< mm: what the file declares for all of it, 0 where its format has no such thing
   std::vector<std::string> warnings{};
+  std::vector<std::pair<TopoDS_Shape, std::string>> labels{};  ///< solids and the names of what they come from, where the format has them
 };
 
 /// The solid of a shape as read. Its entities have the numbers of that whole shape.
@@ -118,10 +119,20 @@ FileShape read_document(const std::string& path, const std::string& object, cons
 FileShape parse_brep(const std::string& text, const Monitor& monitor);
 /// The shape's one solid, checked; or, if it has faces only and `sew_faces`, the solid that they sew to within the file's own tolerance. Throws InvalidInput.
 FoundSolid find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor);
+/// All solids of a shape as read, and what the user should know of the whole.
+struct FoundSolids {
+  std::vector<FoundSolid> solids;
+  std::vector<std::string> warnings{};
+};
+
+/// As find_solid, but of a shape with several solids each of them, in the order of TopExp::MapShapes. Throws InvalidInput, with the solid's name where there are several.
+FoundSolids find_solids(const FileShape& read, bool sew_faces, const Monitor& monitor);
 /// Throws InvalidInput unless the shape is a closed valid solid of positive volume.
 void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);
 /// Tables of a valid solid. Throws InvalidInput for what the tables cannot express (an edge of three faces).
 std::shared_ptr<CadModel::Shape> describe(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);
+/// The same of a solid that was found, with its warnings after those of reading.
+std::shared_ptr<const CadModel::Shape> described(const FoundSolid& found, const std::vector<std::string>& reading, const Monitor& monitor);
 
 /// Parameters of the nearest point of the untrimmed surface, moved by periods into the face's domain where that is possible.
 /// `converged` is false where Newton's method ended elsewhere than in a foot point.

@@ -278,7 +278,38 @@ FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Mon
   return found;
 }
 
+FoundSolids find_solids_unguarded(const FileShape& read, const Monitor& monitor) {
+  const TopoDS_Shape& shape = read.shape;
+  FoundSolids found;
+  TopTools_IndexedMapOfShape solids;
+  TopExp::MapShapes(shape, TopAbs_SOLID, solids);
+  for (int i = 1; i <= solids.Extent(); ++i) {
+    FoundSolid& solid = found.solids.emplace_back(FoundSolid{solids(i), {}, {}});
+    solid.numbers = numbering(shape, solid.solid, [](const TopoDS_Shape& entity) { return entity; });
+    try {
+      validate(solid.solid, solid.numbers, monitor);
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(name({3, i}) + ": " + error.what());
+    }
+  }
+  TopTools_IndexedMapOfShape own;
+  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) TopExp::MapShapes(it.Current(), TopAbs_FACE, own);
+  const std::string left_out = beside(count(shape, TopAbs_FACE) - own.Extent(), count(shape, TopAbs_EDGE, TopAbs_FACE), count(shape, TopAbs_VERTEX, TopAbs_EDGE));
+  if (!left_out.empty()) found.warnings.push_back(left_out);
+  return found;
+}
+
 }  // namespace
+
+FoundSolids find_solids(const FileShape& read, bool sew_faces, const Monitor& monitor) {
+  if (read.shape.IsNull() || count(read.shape, TopAbs_SOLID) < 2) return {{find_solid(read, sew_faces, monitor)}};
+  try {
+    return catching_faults([&] { return find_solids_unguarded(read, monitor); });
+  } catch (const Standard_Failure& failure) {
+    monitor.check();
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+  }
+}
 
 FoundSolid find_solid(const FileShape& read, bool sew_faces, const Monitor& monitor) {
   try {

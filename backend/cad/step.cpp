@@ -6,19 +6,30 @@
 #include <STEPConstruct_UnitContext.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Version.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepBasic_ProductDefinition.hxx>
+#include <StepBasic_ProductDefinitionFormation.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_HArray1OfRepresentationItem.hxx>
 #include <StepRepr_Representation.hxx>
+#include <StepRepr_PropertyDefinition.hxx>
 #include <StepRepr_RepresentationContext.hxx>
+#include <StepRepr_RepresentationRelationship.hxx>
 #include <StepShape_FaceBasedSurfaceModel.hxx>
+#include <StepShape_ShapeDefinitionRepresentation.hxx>
 #include <StepShape_ShellBasedSurfaceModel.hxx>
 #include <StepShape_SolidModel.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
 #include <fstream>
+#include <set>
 #if OCC_VERSION_HEX >= 0x070800
 #include <StepData_Factors.hxx>
 #endif
@@ -188,6 +199,54 @@ double declared_tolerance(const Interface_InterfaceModel& model) {
   return largest;
 }
 
+/// The name of the product whose shape the entity belongs to: the nearest one that builds on it; empty where there is none.
+std::string product_of(const Interface_Graph& graph, const Entity& entity) {
+  std::set<int> seen;
+  std::vector<Entity> ring{entity};
+  while (!ring.empty()) {
+    std::vector<Entity> next;
+    for (const Entity& at : ring) {
+      for (Interface_EntityIterator users = graph.Sharings(at); users.More(); users.Next()) {
+        const auto definition = opencascade::handle<StepShape_ShapeDefinitionRepresentation>::DownCast(users.Value());
+        const auto property = definition.IsNull() ? nullptr : definition->Definition().PropertyDefinition();
+        const auto product = property.IsNull() ? nullptr : property->Definition().ProductDefinition();
+        if (!product.IsNull() && !product->Formation().IsNull() && !product->Formation()->OfProduct().IsNull()) {
+          const auto name = product->Formation()->OfProduct()->Name();
+          if (!name.IsNull()) return name->ToCString();
+        }
+        // Only representations lead from a solid to its product; a context would lead to all.
+        if (users.Value()->IsKind(STANDARD_TYPE(StepRepr_Representation)) || users.Value()->IsKind(STANDARD_TYPE(StepRepr_RepresentationRelationship)))
+          if (seen.insert(graph.EntityNumber(users.Value())).second) next.push_back(users.Value());
+      }
+      if (const auto relation = opencascade::handle<StepRepr_RepresentationRelationship>::DownCast(at); !relation.IsNull()) {
+        for (const Entity& side : {Entity(relation->Rep1()), Entity(relation->Rep2())})
+          if (!side.IsNull() && seen.insert(graph.EntityNumber(side)).second) next.push_back(side);
+      }
+    }
+    ring = std::move(next);
+  }
+  return {};
+}
+
+/// Solids with the name of their own entity, or else of their product.
+std::vector<std::pair<TopoDS_Shape, std::string>> solid_labels(const STEPControl_Reader& reader, const TopoDS_Shape& shape) {
+  std::vector<std::pair<TopoDS_Shape, std::string>> labels;
+  const Interface_Graph graph(reader.WS()->Model());
+  const opencascade::handle<Transfer_TransientProcess> process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const Entity entity = process->Mapped(i);
+    if (entity.IsNull() || !is_solid(entity)) continue;
+    const TopoDS_Shape result = TransferBRep::ShapeResult(process, entity);
+    const Item item = Item::DownCast(entity);
+    std::string label = item.IsNull() || item->Name().IsNull() ? "" : item->Name()->ToCString();
+    if (label.empty()) label = product_of(graph, entity);
+    // One entity may be placed several times.
+    for (TopExp_Explorer it(shape, TopAbs_SOLID); !label.empty() && it.More(); it.Next())
+      if (it.Current().IsPartner(result)) labels.emplace_back(it.Current(), label);
+  }
+  return labels;
+}
+
 FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   STEPControl_Reader reader;
   StoppableFile file(path, monitor);
@@ -201,6 +260,7 @@ FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   monitor.check();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
   FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
+  read.labels = solid_labels(reader, read.shape);
   if (faults > 0) read.warnings.push_back("OpenCASCADE finds " + std::to_string(faults) + (faults == 1 ? " fault" : " faults") + " in the STEP file; the solid is not built on any of them");
   return read;
 }

@@ -89,7 +89,7 @@ double seconds_since(Monitor::Clock::time_point start) { return std::chrono::dur
 /// What the commands on a CAD part have in common.
 struct PartCommand {
   PartCommand(CLI::App& app, const char* name, const char* meaning) : command(*app.add_subcommand(name, meaning)), arguments(command) {
-    command.add_option("part", part, "CAD solid: .step, .stp, .iges, .igs, .brep, .brp or .FCStd")->required()->check(named_file);
+    command.add_option("part", part, "CAD part: .step, .stp, .iges, .igs, .brep, .brp or .FCStd")->required()->check(named_file);
     command.add_option("--object", object, "Object of a .FCStd document, by name or label");
     command.add_option("--report", report, "Write a report as JSON")->check(named_file);
     command.add_flag("-v,--verbose", verbose, "Log what is done, with seconds, to standard error");
@@ -108,9 +108,11 @@ struct PartCommand {
     return result;
   }
 
-  CadModel read(const MeshOptions& options, const Monitor& monitor) const {
+  /// CadModel for one solid, Assembly for as many as there are.
+  template <class Part>
+  Part read(const MeshOptions& options, const Monitor& monitor) const {
     monitor.progress("cad", 0);
-    return CadModel::read(part, {.object = object, .sew = options.sew}, monitor);
+    return Part::read(part, {.object = object, .sew = options.sew}, monitor);
   }
 
   CLI::App& command;
@@ -120,12 +122,13 @@ struct PartCommand {
 };
 
 struct MeshCommand : PartCommand {
-  explicit MeshCommand(CLI::App& app) : PartCommand(app, "mesh", "Hexahedral mesh of a CAD solid") {
+  explicit MeshCommand(CLI::App& app) : PartCommand(app, "mesh", "Hexahedral mesh of a CAD solid, or of several") {
     command.add_option("-o,--output", output, "Mesh: .inp, .unv, .vtu, .med or .mesh (Medit, corners only)")->required()->check(named_file);
     command.footer(
         "Names in the .inp file, of Face3 for example: Face3 its nodes (*BOUNDARY, *CLOAD), Face3_Surface its surface (*DSLOAD, *DFLUX, *TIE,\n"
         "*CONTACT PAIR, *SECTION PRINT), Face3_Elements the elements at it, Face3_S4 those whose side S4 is on it (*FILM: Face3_S4, F4, ...). Edge5 and\n"
-        "Vertex2 are nodes. Solid1 is the elements of the solid (*SOLID SECTION, *DLOAD), Solid1_Nodes its nodes.");
+        "Vertex2 are nodes. Solid1 is the elements of the solid (*SOLID SECTION, *DLOAD), Solid1_Nodes its nodes. Of several solids Solid1_Solid2_Surface\n"
+        "and Solid2_Solid1_Surface are the faces of each that touch the other (*TIE, *CONTACT PAIR).");
   }
 
   Supervision check(Monitor::Clock::time_point start) const {
@@ -135,7 +138,7 @@ struct MeshCommand : PartCommand {
 
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    PartMesh made = mesh_part([&] { return read(options, monitor); }, options, monitor);
+    PartMesh made = mesh_part([&] { return read<Assembly>(options, monitor); }, options, monitor);
     // A mesh that is there is handed out, late or not.
     const Monitor finishing(monitor, finishing_deadline(made.report, monitor));
     const auto write_start = Monitor::Clock::now();
@@ -173,7 +176,7 @@ struct LabelCommand : PartCommand {
 
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    const CadModel model = read(options, monitor);
+    const CadModel model = read<CadModel>(options, monitor);
     polycube::check(options, model.diagonal(), model.faces(), model.edges());
     const LabelledPart labelled = label_part(model, options, monitor);
     const Inspection inspection = inspect(labelled);

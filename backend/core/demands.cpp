@@ -57,6 +57,7 @@ void for_items(const std::string& flag, const std::string& text, const char* for
 }
 
 std::string face_name(int id) { return "Face" + std::to_string(id); }
+std::string solid_name(int id) { return "Solid" + std::to_string(id); }
 
 std::string number_text(double value) {
   char buffer[32];
@@ -68,11 +69,13 @@ std::string number_text(double value) {
 
 Divisions parse_divisions(const std::string& flag, const std::string& text) {
   Divisions result;
-  for_items(flag, text, "Edge4=6 or Face1-Face2=3.. (3: exactly, 3..: at least, ..3: at most, 2..5: between)",
+  for_items(flag, text, "Edge4=6, Face1-Face2=3.. or Solid2=3.. (3: exactly, 3..: at least, ..3: at most, 2..5: between)",
             [&](std::string_view what, std::string_view count) {
               Division d;
               if (const auto edge = entity(what, "Edge")) {
                 d.edge = *edge;
+              } else if (const auto solid = entity(what, "Solid")) {
+                d.solid = *solid;
               } else {
                 const auto dash = what.find('-');
                 if (dash == std::string_view::npos) return false;
@@ -95,6 +98,7 @@ Divisions parse_divisions(const std::string& flag, const std::string& text) {
                 d.at_least = *from;
                 d.at_most = *to;
               }
+              if (d.solid > 0 && d.at_most != Division::kNoMaximum) throw InvalidInput(flag + ": of the walls of a solid only the least number can be given, as " + std::string(what) + "=3..");
               if (d.at_least < 1) throw InvalidInput(flag + ": there must be 1 element at least, not " + std::string(count));
               if (d.at_most < d.at_least) throw InvalidInput(flag + ": " + std::string(what) + "=" + std::string(count) + " leaves no number");
               if (d.at_least > 1'000'000) throw InvalidInput(flag + ": " + std::to_string(d.at_least) + " elements are too many");
@@ -106,10 +110,12 @@ Divisions parse_divisions(const std::string& flag, const std::string& text) {
 
 LocalSizes parse_local_sizes(const std::string& flag, const std::string& text) {
   LocalSizes result;
-  for_items(flag, text, "Face3=0.5 or X=2", [&](std::string_view what, std::string_view value) {
+  for_items(flag, text, "Face3=0.5, X=2 or Solid2=1.5", [&](std::string_view what, std::string_view value) {
     LocalSize s;
     if (const auto face = entity(what, "Face")) {
       s.face = *face;
+    } else if (const auto solid = entity(what, "Solid")) {
+      s.solid = *solid;
     } else if (what.size() == 1 && kAxes.find(what[0]) != std::string_view::npos) {
       s.axis = static_cast<int>(kAxes.find(what[0]));
     } else {
@@ -120,7 +126,7 @@ LocalSizes parse_local_sizes(const std::string& flag, const std::string& text) {
     if (!(*size > 0)) throw InvalidInput(flag + ": the size of " + std::string(what) + " must be greater than 0");
     s.size = *size;
     for (const LocalSize& other : result) {
-      if (other.face == s.face && other.axis == s.axis) throw InvalidInput(flag + ": " + std::string(what) + " is given twice");
+      if (other.face == s.face && other.axis == s.axis && other.solid == s.solid) throw InvalidInput(flag + ": " + std::string(what) + " is given twice");
     }
     result.push_back(s);
     return true;
@@ -160,13 +166,18 @@ FaceList parse_faces(const std::string& flag, const std::string& text) {
 }
 
 std::string text_of(const Division& d) {
-  const std::string what = d.edge > 0 ? "Edge" + std::to_string(d.edge) : face_name(d.faces[0]) + "-" + face_name(d.faces[1]);
+  const std::string what = d.edge > 0    ? "Edge" + std::to_string(d.edge)
+                           : d.solid > 0 ? solid_name(d.solid)
+                                         : face_name(d.faces[0]) + "-" + face_name(d.faces[1]);
   if (d.at_least == d.at_most) return what + "=" + std::to_string(d.at_least);
   if (d.at_most == Division::kNoMaximum) return what + "=" + std::to_string(d.at_least) + "..";
   return what + "=" + (d.at_least > 1 ? std::to_string(d.at_least) : "") + ".." + std::to_string(d.at_most);
 }
 
-std::string text_of(const LocalSize& s) { return (s.face > 0 ? face_name(s.face) : std::string(1, kAxes[static_cast<std::size_t>(s.axis)])) + "=" + number_text(s.size); }
+std::string text_of(const LocalSize& s) {
+  const std::string what = s.face > 0 ? face_name(s.face) : s.solid > 0 ? solid_name(s.solid) : std::string(1, kAxes[static_cast<std::size_t>(s.axis)]);
+  return what + "=" + number_text(s.size);
+}
 
 std::string text_of(const EdgeBias& b) { return "Edge" + std::to_string(b.edge) + "=" + number_text(b.ratio); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "core/types.h"
 
@@ -23,6 +24,14 @@ struct TetMesh {
   std::vector<int> triangle_face;   ///< per triangle: CAD face
   std::vector<Segment> segments;    ///< mesh edges that lie on CAD edges
   std::vector<int> segment_edge;    ///< per segment: CAD edge
+
+  // Of several solids in one mesh also what lies between them; the members above know their outer boundary only, and points between solids count as inside.
+  std::vector<int> tet_solid{};             ///< per tet: index of its solid; empty for one solid
+  std::vector<Triangle> inner_triangles{};  ///< facets between two solids; the normal points out of the one with the lower index
+  std::vector<int> inner_face{};            ///< per inner triangle: CAD face
+  std::vector<Segment> inner_segments{};    ///< mesh edges that lie on CAD edges and not on the outer boundary
+  std::vector<int> inner_segment_edge{};    ///< per inner segment: CAD edge
+  std::vector<std::pair<int, int>> inner_vertices{};  ///< points at CAD vertices that are not on the outer boundary, and these
 };
 
 /// A connected set of boundary triangles with one label, or (sign 0) a feature: nodes that share one coordinate.

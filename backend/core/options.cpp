@@ -232,16 +232,21 @@ const std::vector<OptionSpec>& option_table() {
        .max = 100},
       {.name = "divisions",
        .unit = "",
-       .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.",
+       .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5; at least through the walls of a solid: Solid2=3..",
        .member = &MeshOptions::divisions},
       {.name = "sizes",
        .unit = "mm",
-       .meaning = "Other edge lengths at CAD faces and along the labels' axes, such as Face3=0.5,X=2.",
+       .meaning = "Other edge lengths at CAD faces, along the labels' axes and of solids, such as Face3=0.5,X=2,Solid2=1.5.",
        .member = &MeshOptions::sizes},
       {.name = "bias",
        .unit = "",
        .meaning = "Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.",
        .member = &MeshOptions::bias},
+      {.name = "interfaces",
+       .unit = "",
+       .meaning = "Where solids touch: one mesh with common nodes (conform), or a mesh of each with nodes of its own, for ties and contact (separate).",
+       .member = &MeshOptions::interfaces,
+       .choices = {"conform", "separate"}},
       {.name = "feature_angle",
        .unit = "degrees",
        .meaning = "CAD edges that bend less than this are ignored: the faces on both sides share their mesh faces. 0: none.",
@@ -355,7 +360,7 @@ void check(const MeshOptions& options) {
                        ", but --order " + std::to_string(options.order) + " is asked for");
 }
 
-void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges) {
+void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges, int solids) {
   check(options);
   if (options.size > diagonal) {
     char text[160];
@@ -368,12 +373,19 @@ void check(const MeshOptions& options, double diagonal, const std::vector<int>& 
     if (!numbers.empty() && id < numbers.back()) throw InvalidInput(start + " does not belong to the solid");
     throw InvalidInput(start + " does not exist, the part has " + std::to_string(numbers.size()) + (kind == "Face" ? " faces" : " edges"));
   };
+  const auto check_solid = [&](const char* option, int id) {
+    if (id > solids) throw InvalidInput(std::string(option) + ": Solid" + std::to_string(id) + " does not exist, the part has " + std::to_string(solids) + (solids == 1 ? " solid" : " solids"));
+  };
   for (const auto& [face, label] : options.labels) check_entity("--label", "Face", face, faces);
   for (const Division& d : options.divisions) {
     check_entity("--divisions", "Edge", d.edge, edges);
     for (int face : d.faces) check_entity("--divisions", "Face", face, faces);
+    check_solid("--divisions", d.solid);
   }
-  for (const LocalSize& s : options.sizes) check_entity("--sizes", "Face", s.face, faces);
+  for (const LocalSize& s : options.sizes) {
+    check_entity("--sizes", "Face", s.face, faces);
+    check_solid("--sizes", s.solid);
+  }
   for (const EdgeBias& b : options.bias) check_entity("--bias", "Edge", b.edge, edges);
   for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, faces);
 }

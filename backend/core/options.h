@@ -42,6 +42,7 @@ struct MeshOptions {
   Divisions divisions;
   LocalSizes sizes;
   EdgeBiases bias;
+  std::string interfaces = "conform";
   double fidelity = 3;
   double compactness = 1;
   friend bool operator==(const MeshOptions&, const MeshOptions&) = default;
@@ -80,8 +81,8 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option);
 void check(const MeshOptions& options);
 
 /// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division, a local size or a face to keep
-/// names a face or edge that is not among the numbers of the solid's (ascending).
-void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges);
+/// names a face or edge that is not among the numbers of the part's (ascending), or a solid beyond its number of solids.
+void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges, int solids = 1);
 
 /// "+X", "-X", ... of a label 0..5.
 const char* label_name(int label);

@@ -1,6 +1,7 @@
 #include "core/report.h"
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <set>
@@ -91,7 +92,9 @@ CadCapture capture(const Association& association, int vertex_count, const std::
   return c;
 }
 
-std::string to_json(const MeshReport& report) {
+namespace {
+
+Json report_json(const MeshReport& report) {
   Json json;
   json["version"] = report.version;
   json["options"] = options_json(report.options);
@@ -135,8 +138,109 @@ std::string to_json(const MeshReport& report) {
   json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
                           {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};
   json["search"] = {{"plan", report.plan}, {"plans_tried", report.plans_tried}, {"out_of_time", report.out_of_time}};
+  if (!report.solids.empty()) {
+    json["solids"] = Json::array();
+    for (std::size_t s = 0; s < report.solids.size(); ++s) {
+      Json one{{"name", name(CadRef{3, static_cast<int>(s) + 1})}, {"label", report.solids[s].label}};
+      one.update(report_json(report.solids[s].report));
+      for (const char* of_all : {"version", "options", "element_type"}) one.erase(of_all);
+      json["solids"].push_back(std::move(one));
+    }
+    json["interfaces"] = Json::array();
+    for (const InterfaceRecord& i : report.interfaces)
+      json["interfaces"].push_back({{"solids", names(3, {i.solids.begin(), i.solids.end()})},
+                                    {"faces", {names(2, i.faces[0]), names(2, i.faces[1])}},
+                                    {"area", i.area}});
+  }
   json["warnings"] = report.warnings;
-  return json.dump(2) + "\n";
+  return json;
+}
+
+template <class Record>
+void add_stages(std::vector<Record>& all, const std::vector<Record>& more) {
+  for (const Record& stage : more) {
+    const auto at = std::find_if(all.begin(), all.end(), [&](const Record& one) { return one.name == stage.name; });
+    if (at == all.end()) {
+      all.push_back(stage);
+    } else {
+      at->seconds += stage.seconds;
+    }
+  }
+}
+
+void add(std::vector<int>& all, const std::vector<int>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+}
+
+/// Means are weighted by the numbers of cells.
+void add(Spread& all, const Spread& more, double share) {
+  all.min = std::min(all.min, more.min);
+  all.max = std::max(all.max, more.max);
+  all.mean += share * more.mean;
+}
+
+void add(QualitySummary& all, const QualitySummary& more, double share) {
+  all.min_scaled_jacobian = std::min(all.min_scaled_jacobian, more.min_scaled_jacobian);
+  all.mean_scaled_jacobian += share * more.mean_scaled_jacobian;
+  all.inverted += more.inverted;
+  for (std::size_t i = 0; i < all.histogram.size(); ++i) all.histogram[i] += more.histogram[i];
+}
+
+}  // namespace
+
+std::string to_json(const MeshReport& report) { return report_json(report).dump(2) + "\n"; }
+
+MeshReport join(std::vector<SolidReport> solids) {
+  MeshReport all;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  all.quality.min_scaled_jacobian = all.shape.edge_ratio.min = all.shape.skew.min = all.shape.warpage.min = kNone;
+  int total = 0;
+  for (const SolidReport& solid : solids) total += solid.report.hexes;
+  all.quantization.optimal = true;
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    const MeshReport& r = solids[s].report;
+    const double share = static_cast<double>(r.hexes) / total;
+    all.version = r.version;
+    all.size = s == 0 ? r.size : std::min(all.size, r.size);
+    add_stages(all.stages, r.stages);
+    all.peak_memory_mb = std::max(all.peak_memory_mb, r.peak_memory_mb);
+    for (WorstCell cell : r.worst) {
+      cell.hex += solids[s].first_hex;
+      all.worst.push_back(std::move(cell));
+    }
+    for (int MeshReport::*count : {&MeshReport::tets, &MeshReport::charts, &MeshReport::blocks, &MeshReport::hexes, &MeshReport::nodes, &MeshReport::plans_tried,
+                                   &MeshReport::padded_hexes, &MeshReport::loose_nodes, &MeshReport::straightened_edges, &MeshReport::thin_walls, &MeshReport::coarse_circles})
+      all.*count += r.*count;
+    add(all.quality, r.quality, share);
+    add(all.shape.edge_ratio, r.shape.edge_ratio, share);
+    add(all.shape.skew, r.shape.skew, share);
+    add(all.shape.warpage, r.shape.warpage, share);
+    all.volume += r.volume;
+    all.cad_volume += r.cad_volume;
+    for (std::vector<int> CadCapture::*list : {&CadCapture::lost_vertices, &CadCapture::lost_edges, &CadCapture::lost_faces, &CadCapture::ignored_vertices,
+                                               &CadCapture::ignored_edges, &CadCapture::ignored_faces})
+      add(all.capture.*list, r.capture.*list);
+    for (int CadCapture::*count : {&CadCapture::vertices, &CadCapture::edges, &CadCapture::faces, &CadCapture::vertices_captured, &CadCapture::edges_captured, &CadCapture::faces_captured})
+      all.capture.*count += r.capture.*count;
+    QuantizationRecord& q = all.quantization;
+    q.objective += r.quantization.objective;
+    q.bound += r.quantization.bound;
+    q.optimal = q.optimal && r.quantization.optimal;
+    q.nodes += r.quantization.nodes;
+    q.cuts += r.quantization.cuts;
+    q.c2_rounds += r.quantization.c2_rounds;
+    all.plan += (s == 0 ? "" : "; ") + r.plan;
+    all.out_of_time = all.out_of_time || r.out_of_time;
+    add(all.straightened_faces, r.straightened_faces);
+    for (const std::string& line : r.warnings) all.warnings.push_back(name(CadRef{3, static_cast<int>(s) + 1}) + ": " + line);
+  }
+  if (all.quantization.objective > 0) all.quantization.gap = (all.quantization.objective - all.quantization.bound) / all.quantization.objective;
+  std::stable_sort(all.worst.begin(), all.worst.end(), [](const WorstCell& a, const WorstCell& b) { return a.scaled_jacobian < b.scaled_jacobian; });
+  if (all.worst.size() > kWorstCells) all.worst.resize(kWorstCells);
+  all.solids = std::move(solids);
+  return all;
 }
 
 }  // namespace polycube

@@ -15,6 +15,9 @@ struct StageRecord {
   double seconds = 0;
 };
 
+/// How many of the worst cells a report lists.
+inline constexpr std::size_t kWorstCells = 20;
+
 struct WorstCell {
   int hex = 0;                      ///< 0-based
   Vec3 centre = Vec3::Zero();       ///< mm
@@ -37,6 +40,15 @@ struct QuantizationRecord {
   int nodes = 0, cuts = 0, c2_rounds = 0;    ///< of the search tree; C2 constraints met; solutions checked against C2
 };
 
+struct SolidReport;
+
+/// Faces of two solids that touch.
+struct InterfaceRecord {
+  std::array<int, 2> solids{0, 0};
+  std::array<std::vector<int>, 2> faces;  ///< CAD faces of each
+  double area = 0;                        ///< mm^2
+};
+
 struct MeshReport {
   std::string version;
   MeshOptions options;
@@ -48,7 +60,7 @@ struct MeshReport {
   ShapeSummary shape;                   ///< likewise
   double volume = 0;                    ///< mm^3, of the mesh
   double cad_volume = 0;                ///< mm^3
-  std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most 20
+  std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most kWorstCells
   CadCapture capture;
   QuantizationRecord quantization;
   std::string plan;                     ///< of the search: the one that the mesh comes from
@@ -60,11 +72,22 @@ struct MeshReport {
   int coarse_circles = 0;               ///< CAD edges with fewer elements along them than their turning asks for
   int straightened_edges = 0;           ///< second order: edges off the CAD because a cell would be spoilt by the curved ones
   std::vector<int> straightened_faces;  ///< CAD faces with such edges, ascending
+  std::vector<SolidReport> solids;      ///< of several: each by itself; the fields above are of all of them
+  std::vector<InterfaceRecord> interfaces;
   std::vector<std::string> warnings;    ///< one line each
 };
 
+struct SolidReport {
+  std::string label;                    ///< of the object or product that the solid comes from, or empty
+  MeshReport report;
+  int first_hex = 0;                    ///< number of its first cell in the mesh of all
+};
+
+/// The report of a mesh of several solids, from those of each: counts and seconds are summed, the worst cells are those of the whole, by its numbers.
+MeshReport join(std::vector<SolidReport> solids);
+
 /// The `count` cells of least scaled Jacobian, ties by index.
-std::vector<WorstCell> worst_cells(const HexMesh& mesh, const Association& association, int count = 20);
+std::vector<WorstCell> worst_cells(const HexMesh& mesh, const Association& association, int count = kWorstCells);
 
 /// Counts the model's entities against the association's lists. A face in a patch of several faces is lost (or ignored): the mesh does not tell it apart.
 /// `real_edges` are the CAD edges that count (neither seam nor degenerate).

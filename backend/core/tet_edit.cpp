@@ -21,13 +21,17 @@ bool contains(const Cell& cell, int node) {
 
 }  // namespace
 
-TetEditor::TetEditor(TetMesh& mesh) : mesh_(mesh), tets_at_(mesh.points.size()), triangles_at_(mesh.points.size()), parent_(mesh.triangles.size()) {
+TetEditor::TetEditor(TetMesh& mesh) : mesh_(mesh), tets_at_(mesh.points.size()), triangles_at_(mesh.points.size()), inner_at_(mesh.points.size()), parent_(mesh.triangles.size()) {
   for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
     for (int n : mesh.tets[t]) tets_at_[n].push_back(t);
   }
   for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
     for (int n : mesh.triangles[t]) triangles_at_[n].push_back(t);
   }
+  for (int t = 0; t < static_cast<int>(mesh.inner_triangles.size()); ++t) {
+    for (int n : mesh.inner_triangles[t]) inner_at_[n].push_back(t);
+  }
+  for (int i = 0; i < static_cast<int>(mesh.inner_segments.size()); ++i) inner_segment_[sorted(mesh.inner_segments[i][0], mesh.inner_segments[i][1])] = i;
   for (int i = 0; i < static_cast<int>(mesh.segments.size()); ++i) segment_[sorted(mesh.segments[i][0], mesh.segments[i][1])] = i;
   std::iota(parent_.begin(), parent_.end(), 0);
 }
@@ -71,6 +75,7 @@ int TetEditor::split_edge(int a, int b, const Vec3& point) {
   mesh_.point_cad.push_back({3, 1});
   tets_at_.emplace_back();
   triangles_at_.emplace_back();
+  inner_at_.emplace_back();
   // In each piece one end is replaced; indices stay ascending in the lists because new cells come last.
   const auto split = [&](auto& cells, std::vector<std::vector<int>>& at, const std::vector<int>& which) {
     for (int c : which) {
@@ -86,23 +91,33 @@ int TetEditor::split_edge(int a, int b, const Vec3& point) {
     std::sort(at[middle].begin(), at[middle].end());
   };
   const std::vector<int> triangles = around(triangles_at_, a, b);
-  split(mesh_.tets, tets_at_, around(tets_at_, a, b));
+  const std::vector<int> tets = around(tets_at_, a, b), inner = around(inner_at_, a, b);
+  split(mesh_.tets, tets_at_, tets);
+  for (int t : tets) {
+    if (!mesh_.tet_solid.empty()) mesh_.tet_solid.push_back(mesh_.tet_solid[t]);
+  }
+  split(mesh_.inner_triangles, inner_at_, inner);
+  for (int t : inner) mesh_.inner_face.push_back(mesh_.inner_face[t]);
   split(mesh_.triangles, triangles_at_, triangles);
   for (int t : triangles) {
     mesh_.triangle_face.push_back(mesh_.triangle_face[t]);
     parent_.push_back(t);
     mesh_.point_cad[middle] = {2, mesh_.triangle_face[t]};
   }
-  if (const auto it = segment_.find(sorted(a, b)); it != segment_.end()) {
-    const int i = it->second, edge = mesh_.segment_edge[i];
-    segment_.erase(it);
-    mesh_.segments[i] = {a, middle};
-    segment_[sorted(a, middle)] = i;
-    segment_[sorted(middle, b)] = static_cast<int>(mesh_.segments.size());
-    mesh_.segments.push_back({middle, b});
-    mesh_.segment_edge.push_back(edge);
-    mesh_.point_cad[middle] = {1, edge};
-  }
+  const auto split_segment = [&](std::vector<Segment>& segments, std::vector<int>& edges, std::map<Segment, int>& index) {
+    const auto it = index.find(sorted(a, b));
+    if (it == index.end()) return 0;
+    const int i = it->second, edge = edges[i];
+    index.erase(it);
+    segments[i] = {a, middle};
+    index[sorted(a, middle)] = i;
+    index[sorted(middle, b)] = static_cast<int>(segments.size());
+    segments.push_back({middle, b});
+    edges.push_back(edge);
+    return edge;
+  };
+  if (const int edge = split_segment(mesh_.segments, mesh_.segment_edge, segment_); edge > 0) mesh_.point_cad[middle] = {1, edge};
+  split_segment(mesh_.inner_segments, mesh_.inner_segment_edge, inner_segment_);
   return middle;
 }
 

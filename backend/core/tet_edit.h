@@ -12,7 +12,7 @@ class TetEditor {
  public:
   explicit TetEditor(TetMesh& mesh);
 
-  /// Splits edge (a, b) at `point`; all tets, triangles and segments on it become two. Returns the new node. The new triangles are appended;
+  /// Splits edge (a, b) at `point`; all tets, triangles and segments on it become two, those between solids too. Returns the new node. The new triangles are appended;
   /// triangle_parent() tells where they come from. The classification of the new node is the segment's, the triangles' face, or the solid's.
   int split_edge(int a, int b, const Vec3& point);
 
@@ -34,8 +34,8 @@ class TetEditor {
   std::vector<int> around(const std::vector<std::vector<int>>& at, int a, int b) const;
 
   TetMesh& mesh_;
-  std::vector<std::vector<int>> tets_at_, triangles_at_;  // per node
-  std::map<Segment, int> segment_;                        // sorted nodes -> index
+  std::vector<std::vector<int>> tets_at_, triangles_at_, inner_at_;  // per node
+  std::map<Segment, int> segment_, inner_segment_;                   // sorted nodes -> index
   std::vector<int> parent_;
 };
 

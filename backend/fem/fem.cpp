@@ -13,9 +13,6 @@
 namespace polycube {
 namespace {
 
-/// Abaqus' face number (0 = S1) of each face of core/hexahedron.h.
-constexpr std::array<int, 6> kAbaqusFace{5, 3, 2, 4, 0, 1};
-
 /// The CAD face of the patch nearest to the quad's centre; the first of equally near ones.
 int nearest_face(const CadModel& model, const std::vector<int>& faces, const Vec3& centre) {
   if (faces.size() == 1) return faces.front();
@@ -64,6 +61,7 @@ void add_groups(FemMesh& mesh, const Association& association) {
   for (int q = 0; q < std::ssize(mesh.quads); ++q) {
     FemGroup& group = groups[{2, mesh.quad_face[q]}];
     group.elements.push_back(q);
+    group.sides.push_back(mesh.quad_hex[q]);
     group.nodes.insert(group.nodes.end(), mesh.quads[q].begin(), mesh.quads[q].begin() + quad_nodes);
   }
   FemGroup& solid = groups[{3, 1}];
@@ -92,10 +90,17 @@ void require_positive(const FemMesh& mesh) {
 
 }  // namespace
 
+std::string group_name(const FemGroup& group) {
+  if (group.solid == 0) return name(group.entity);
+  return name(CadRef{3, group.solid}) + "_" + name(group.other > 0 ? CadRef{3, group.other} : group.entity);
+}
+
 double least_jacobian(const FemMesh& mesh, int hex) {
   const Hex20& nodes = mesh.hexes[hex];
   return determinants(mesh.order == 2 ? curved_places(mesh.points, nodes) : straight_places(mesh.points, nodes)).head<kSolverPoints>().minCoeff();
 }
+
+std::vector<int> solid_numbers(const FemMesh& mesh) { return mesh.hex_solid.empty() ? std::vector<int>(mesh.hexes.size(), 1) : mesh.hex_solid; }
 
 std::vector<double> cell_values(const FemMesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&)) {
   std::vector<double> values;

@@ -10,12 +10,21 @@
 
 namespace polycube {
 
-/// Nodes and elements that stand for one CAD entity. 0-based, ascending.
+/// Nodes and elements that stand for one CAD entity, or for one side of an interface between solids. 0-based, ascending.
 struct FemGroup {
-  CadRef entity;
+  CadRef entity;              ///< of an interface {2, 0}
   std::vector<int> nodes;
   std::vector<int> elements;  ///< solid: hexes; face: quads; edge: segments; vertex: none
+  std::vector<std::array<int, 2>> sides{};  ///< face: per element its hex on the group's side and the hex's face 0 to 5 as Abaqus' S1 to S6
+  int solid = 0;              ///< not 0: only what this solid has of an entity that several share, or of an interface
+  int other = 0;              ///< interface: the solid that `solid` touches there
 };
+
+/// "Face3"; of one solid "Solid1_Face3"; the faces of Solid1 that touch Solid2 "Solid1_Solid2".
+std::string group_name(const FemGroup& group);
+
+/// Abaqus' face number (0 = S1) of each face of core/hexahedron.h.
+inline constexpr std::array<int, 6> kAbaqusFace{5, 3, 2, 4, 0, 1};
 
 /// Node order within elements is VTK's (= Abaqus'): corners, then mid-edge nodes in the order of kHexEdges. In a mesh of order 1 the
 /// places of mid-edge nodes hold -1.
@@ -25,12 +34,13 @@ struct FemMesh {
   std::vector<Vec3> points;                     ///< mm
   std::vector<std::array<int, 20>> hexes;
   std::vector<int> hex_block;                   ///< per hex: the block that it is part of; may be empty
-  std::vector<std::array<int, 8>> quads;        ///< all boundary faces, outward
+  std::vector<int> hex_solid;                   ///< per hex: number of its solid; empty for one solid
+  std::vector<std::array<int, 8>> quads;        ///< all boundary faces, outward; those between two solids with common nodes once
   std::vector<int> quad_face;                   ///< per quad: CAD face
-  std::vector<std::array<int, 2>> quad_hex;     ///< per quad: its hex, and the hex's face 0 to 5 as Abaqus' S1 to S6
+  std::vector<std::array<int, 2>> quad_hex;     ///< per quad: its hex (between two solids that of the lower number), and the hex's face 0 to 5 as Abaqus' S1 to S6
   std::vector<std::array<int, 3>> segments;     ///< start, end, middle
   std::vector<int> segment_edge;                ///< per segment: CAD edge
-  std::vector<FemGroup> groups;                 ///< ascending by entity; only entities that have a node
+  std::vector<FemGroup> groups;                 ///< ascending by solid, other and entity; only entities that have a node
   std::vector<int> straight_nodes;              ///< mid-edge nodes off the CAD, because an edge on it would spoil a cell; ascending
 };
 
@@ -49,6 +59,9 @@ void complete(MeshReport& report, const FemMesh& mesh);
 
 /// Smallest Jacobian determinant of a cell at its 8 corners and 27 Gauss points, mm^3 (of the reference cube [-1, 1]^3).
 double least_jacobian(const FemMesh& mesh, int hex);
+
+/// Per cell the number of its solid: 1 where there is only one.
+std::vector<int> solid_numbers(const FemMesh& mesh);
 
 /// A measure of core/quality.h per cell, of its corners.
 std::vector<double> cell_values(const FemMesh& mesh, double (*measure)(const std::vector<Vec3>&, const Hex&));

@@ -7,8 +7,7 @@
 
 namespace polycube {
 
-/// "Face3" and so on, and for node sets of formats that need distinct names "Face3_Nodes".
-std::string group_name(const FemGroup& group);
+/// For node sets of formats that need distinct names: "Face3_Nodes".
 std::string node_group_name(const FemGroup& group);
 
 inline int hex_nodes(const FemMesh& mesh) { return mesh.order == 2 ? 20 : 8; }

@@ -48,8 +48,12 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
   std::string text =
       "** Hexahedral mesh by Polycube. Lengths in mm.\n"
       "** CAD face 3: node set Face3, surface Face3_Surface, elements Face3_Elements; those whose side S1 is on it, Face3_S1.\n"
-      "** The solid: elements Solid1, nodes Solid1_Nodes.\n"
-      "*NODE, NSET=Nall\n";
+      "** The solid: elements Solid1, nodes Solid1_Nodes.\n";
+  if (!mesh.hex_solid.empty())
+    text +=
+        "** Of a face that Solid1 and Solid2 share: Solid1_Face3 what Solid1 has of it. Solid1_Solid2_Surface: all faces of Solid1 that touch Solid2;\n"
+        "** *TIE and *CONTACT PAIR take Solid1_Solid2_Surface and Solid2_Solid1_Surface.\n";
+  text += "*NODE, NSET=Nall\n";
   text.reserve(mesh.points.size() * 80 + mesh.hexes.size() * 160);
   for (std::size_t p = 0; p < mesh.points.size(); ++p) {
     append(text, "%zu", p + 1);
@@ -77,9 +81,9 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
     if (group.entity.dim != 2) continue;
     std::vector<int> cells;
     std::array<std::vector<int>, 6> by_side;
-    for (int q : group.elements) {
-      cells.push_back(mesh.quad_hex[q][0] + 1);
-      by_side[mesh.quad_hex[q][1]].push_back(cells.back());
+    for (const auto& [hex, side] : group.sides) {
+      cells.push_back(hex + 1);
+      by_side[side].push_back(cells.back());
     }
     std::sort(cells.begin(), cells.end());
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -92,7 +96,7 @@ std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
       append_set(text, by_side[side]);
     }
     text += "*SURFACE, NAME=" + name + "_Surface, TYPE=ELEMENT\n";
-    for (int q : group.elements) append(text, "%d, S%d\n", mesh.quad_hex[q][0] + 1, mesh.quad_hex[q][1] + 1);
+    for (const auto& [hex, side] : group.sides) append(text, "%d, S%d\n", hex + 1, side + 1);
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // MED (Salome, Code_Aster, FreeCAD) through libmed. MED winds cells as SMESH does; groups are carried by families.
 #include <med.h>
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <stdexcept>
@@ -73,14 +74,27 @@ std::vector<med_int> create_node_families(const File& file, const FemMesh& mesh)
   return family_of;
 }
 
-/// Family of each element of the given dimension; numbers of element families are negative, `next` is the last one used.
+/// Family of each element of the given dimension: the set of groups it is in; numbers of element families are negative, `next` is the last one used.
 std::vector<med_int> create_element_families(const File& file, const FemMesh& mesh, int dim, std::size_t count, med_int& next) {
-  std::vector<med_int> family_of(count, 0);
-  for (const FemGroup& group : mesh.groups) {
-    if (group.entity.dim != dim || group.elements.empty()) continue;
-    create_family(file, --next, {group_name(group)});
-    for (int element : group.elements) family_of[element] = next;
+  std::vector<std::vector<int>> memberships(count);
+  for (int g = 0; g < std::ssize(mesh.groups); ++g) {
+    if (mesh.groups[g].entity.dim != dim) continue;
+    for (int element : mesh.groups[g].elements) memberships[element].push_back(g);
   }
+  std::map<std::vector<int>, med_int> families{{{}, 0}};
+  // In the order of the groups.
+  std::vector<std::vector<int>> sets = memberships;
+  std::sort(sets.begin(), sets.end());
+  for (const auto& set : sets) {
+    const auto [it, fresh] = families.try_emplace(set, 0);
+    if (!fresh) continue;
+    it->second = --next;
+    std::vector<std::string> names;
+    for (int g : set) names.push_back(group_name(mesh.groups[g]));
+    create_family(file, it->second, names);
+  }
+  std::vector<med_int> family_of;
+  for (const auto& membership : memberships) family_of.push_back(families.at(membership));
   return family_of;
 }
 

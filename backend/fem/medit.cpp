@@ -27,9 +27,9 @@ std::string medit_text(const FemMesh& mesh) {
     append(text, "%d\n", mesh.quad_face[q]);
   }
   append(text, "Hexahedra\n%zu\n", mesh.hexes.size());
-  for (const auto& hex : mesh.hexes) {
-    for (int i = 0; i < 8; ++i) append(text, "%d ", hex[i] + 1);
-    text += "1\n";
+  for (std::size_t h = 0; h < mesh.hexes.size(); ++h) {
+    for (int i = 0; i < 8; ++i) append(text, "%d ", mesh.hexes[h][i] + 1);
+    append(text, "%d\n", mesh.hex_solid.empty() ? 1 : mesh.hex_solid[h]);
   }
   text += "End\n";
   return text;

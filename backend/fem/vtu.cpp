@@ -74,11 +74,14 @@ std::string vtu_text(const FemMesh& mesh) {
   text += "</Cells>\n<CellData>\n";
   append_array(text, "Float64", "Name=\"ScaledJacobian\"", quality);
   append_array(text, "Int32", "Name=\"CadFace\"", faces);
-  if (!mesh.hex_block.empty()) {
-    std::vector<std::int32_t> blocks(mesh.hex_block.begin(), mesh.hex_block.end());
-    for (const auto& quad : mesh.quad_hex) blocks.push_back(mesh.hex_block[quad[0]]);
-    append_array(text, "Int32", "Name=\"Block\"", blocks);
-  }
+  const auto append_by_hex = [&](const char* name, const std::vector<int>& of_hex) {
+    if (of_hex.empty()) return;
+    std::vector<std::int32_t> values(of_hex.begin(), of_hex.end());
+    for (const auto& quad : mesh.quad_hex) values.push_back(of_hex[quad[0]]);
+    append_array(text, "Int32", name, values);
+  };
+  append_by_hex("Name=\"Block\"", mesh.hex_block);
+  append_by_hex("Name=\"CadSolid\"", mesh.hex_solid);
   text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   return text;
 }

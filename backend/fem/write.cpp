@@ -23,8 +23,7 @@ Format format_of(const std::string& path) {
 
 }  // namespace
 
-std::string group_name(const FemGroup& group) { return name(group.entity); }
-std::string node_group_name(const FemGroup& group) { return name(group.entity) + "_Nodes"; }
+std::string node_group_name(const FemGroup& group) { return group_name(group) + "_Nodes"; }
 
 void append(std::string& text, const char* format, ...) {
   char line[256];

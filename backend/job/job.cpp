@@ -124,6 +124,7 @@ void save_mesh(const std::string& folder, const PartMesh& mesh) {
   arrays.add_rows("nodes", fem.points, 3);
   arrays.add_rows("hexes", fem.hexes, second ? 20 : 8);
   arrays.add("hex_block", fem.hex_block);
+  arrays.add("hex_solid", solid_numbers(fem));
   arrays.add_rows("quads", fem.quads, second ? 8 : 4);
   arrays.add("quad_face", fem.quad_face);
   arrays.add_rows("quad_hex", fem.quad_hex, 2);
@@ -134,7 +135,7 @@ void save_mesh(const std::string& folder, const PartMesh& mesh) {
   arrays.add("skew", cell_values(fem, skew));
   arrays.add("warpage", cell_values(fem, warpage));
   for (const FemGroup& group : fem.groups) {
-    const std::string start = "group/" + name(group.entity) + "/";
+    const std::string start = "group/" + group_name(group) + "/";
     arrays.add(start + "nodes", group.nodes);
     if (group.entity.dim > 0) arrays.add(start + kGroupElements.at(static_cast<std::size_t>(group.entity.dim)), group.elements);
   }
@@ -169,8 +170,10 @@ void limit_time(Monitor& monitor, const MeshOptions& options) {
                          std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
 }
 
-CadModel read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
-  return CadModel::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
+/// CadModel for one solid, Assembly for as many as there are.
+template <class Part>
+Part read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
+  return Part::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
 }
 
 void work(const std::string& folder, JobKind kind) {
@@ -178,8 +181,8 @@ void work(const std::string& folder, JobKind kind) {
   Monitor monitor;
   const Voice voice(monitor, folder);
   limit_time(monitor, options);
-  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape(folder, options, monitor); }, options, monitor));
-  const CadModel model = read_shape(folder, options, monitor);
+  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape<Assembly>(folder, options, monitor); }, options, monitor));
+  const CadModel model = read_shape<CadModel>(folder, options, monitor);
   check(options, model.diagonal(), model.faces(), model.edges());
   save_labels(folder, label_part(model, options, monitor, Until::kLabels), model.face_count());
 }
@@ -217,7 +220,7 @@ void serve_session(const std::string& folder) {
       Monitor monitor;
       const Voice voice(monitor, own);
       limit_time(monitor, options);
-      if (!session) session = std::make_unique<Session>(read_shape(folder, options, monitor), options);
+      if (!session) session = std::make_unique<Session>(read_shape<CadModel>(folder, options, monitor), options);
       save_mesh(own, mesh_part(*session, options, monitor));
     });
     std::printf("%s\n", dump({{"done", status}}).c_str());

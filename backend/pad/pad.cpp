@@ -23,7 +23,7 @@ constexpr double kHopeless = 2500;
 }  // namespace
 
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
-                                    std::vector<PadReport>* reports) {
+                                    std::vector<PadReport>* reports, const std::vector<int>& fixed_faces) {
   const auto faults_before = check(mesh, association);
   if (!faults_before.empty()) throw StageFailed("pad", "the mesh handed to padding is not sound: " + faults_before[0]);
   std::vector<Choice> choices;
@@ -32,7 +32,7 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
   for (const LayerPlan plan : {LayerPlan::kEach, LayerPlan::kBands, LayerPlan::kTogether, LayerPlan::kTogetherThrough}) {
     monitor.progress("pad", done);
     done += 0.2;
-    PaddedMesh layered{mesh, association};
+    PaddedMesh layered{mesh, association, fixed_faces};
     const LayerCount layers = insert_surface_layers(model, layered, plan, monitor);
     RingCount rings;
     const auto ringed = [&](RingWay way) {

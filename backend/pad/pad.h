@@ -10,6 +10,7 @@ namespace polycube {
 struct PaddedMesh {
   HexMesh mesh;
   Association association;
+  std::vector<int> fixed_faces{};  ///< CAD faces whose quads stay as they are, ascending: another mesh has them too
 };
 
 struct PadReport {
@@ -19,9 +20,9 @@ struct PadReport {
 };
 
 /// Several ways to pad, the most promising first, at least one: layers under whole smooth regions or pillows round the edges at fault.
-/// Which is best shows only in the fitted geometry. Each is as pad() describes.
+/// Which is best shows only in the fitted geometry. Each is as pad() describes. `fixed_faces` as in PaddedMesh.
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
-                                    std::vector<PadReport>* reports = nullptr);
+                                    std::vector<PadReport>* reports = nullptr, const std::vector<int>& fixed_faces = {});
 
 /// The first of pad_choices. Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a
 /// cell inside); fit follows.

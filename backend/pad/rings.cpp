@@ -241,7 +241,8 @@ std::vector<int> band_of(const TrialMesh& whole, int patch, const Stretch& stret
 
 // One quad in a straight angle. The chords of curved edges leave it less: such a quad is poor, not lost.
 bool is_lost(const TrialMesh& whole, const Sector& sector) {
-  const auto& [mesh, association] = whole.padded;
+  const HexMesh& mesh = whole.padded.mesh;
+  const Association& association = whole.padded.association;
   const CadRef& at = association.point_cad[sector.node];
   if (sector.quads > 1 || sector.angle < kStraightAngle) return false;
   if (at.dim != 1) return true;

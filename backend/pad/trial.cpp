@@ -91,7 +91,8 @@ Part cut_out(const TrialMesh& whole, const SheetCut& cut) {
 
 // Sum of angle costs at the edges that touch a near node and in the sectors at near nodes.
 double total_cost(const CadModel& model, const PaddedMesh& padded, const std::vector<char>& near) {
-  const auto& [mesh, association] = padded;
+  const HexMesh& mesh = padded.mesh;
+  const Association& association = padded.association;
   const HexTopology topology = build_topology(mesh, association.quads);
   const auto boundary = boundary_edges(mesh, association.quads, topology);
   const auto angles = dihedral_angles(model, mesh, association, boundary);
@@ -130,9 +131,33 @@ TrialMesh::TrialMesh(const CadModel& cad, const PaddedMesh& mesh)
   }
 }
 
+namespace {
+
+// Nodes of fixed quads that the cut would double: such a quad may lie on the outer side of the layer, or away from the cut.
+std::vector<int> fixed_obstacles(const TrialMesh& whole, const SheetCut& cut) {
+  const Association& a = whole.padded.association;
+  const std::vector<int>& fixed = whole.padded.fixed_faces;
+  std::vector<int> obstacles;
+  if (fixed.empty()) return obstacles;
+  const std::vector<int> near = nodes_of_cut(whole, cut);
+  for (std::size_t q = 0; q < a.quads.size(); ++q) {
+    const std::vector<int>& faces = a.patches[a.quad_patch[q]];
+    const bool is_fixed = std::any_of(faces.begin(), faces.end(), [&](int f) { return std::binary_search(fixed.begin(), fixed.end(), f); });
+    if (!is_fixed || cut.surface[q] || !cut.inside[whole.topology.quad_side[q] / 6]) continue;
+    for (int v : a.quads[q]) {
+      if (std::binary_search(near.begin(), near.end(), v)) obstacles.push_back(v);
+    }
+  }
+  return sorted_unique(std::move(obstacles));
+}
+
+}  // namespace
+
 TrialResult try_sheet(const TrialMesh& whole, const SheetCut& cut) {
-  Part part = cut_out(whole, cut);
   TrialResult result;
+  result.obstacles = fixed_obstacles(whole, cut);
+  if (!result.obstacles.empty()) return result;
+  Part part = cut_out(whole, cut);
   result.obstacles = sheet_obstacles(part.padded.mesh, part.padded.association, part.cut);
   for (int& v : result.obstacles) v = part.node_of[v];
   if (!result.obstacles.empty()) return result;

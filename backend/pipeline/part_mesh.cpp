@@ -1,5 +1,12 @@
 #include "pipeline/part_mesh.h"
 
+#include "core/error.h"
+#include "core/union_find.h"
+#include "fem/join.h"
+#include "pipeline/conform_mesh.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/solids.h"
+
 namespace polycube {
 namespace {
 
@@ -25,13 +32,100 @@ PartMesh mesh_part(Session& session, const MeshOptions& options, const Monitor& 
   return made;
 }
 
-PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor) {
+namespace {
+
+/// An equal share of the time left for each solid that is left.
+Monitor::Clock::time_point share_of(const Monitor& monitor, int solids_left) {
+  if (monitor.deadline() == Monitor::Clock::time_point::max()) return monitor.deadline();
+  const auto now = Monitor::Clock::now();
+  return now + (monitor.deadline() - now) / solids_left;
+}
+
+/// Solids that go into one mesh with common nodes: those that touch, directly or through others; else each by itself.
+std::vector<std::vector<int>> units_of(const Assembly& assembly, const MeshOptions& options) {
+  const int count = static_cast<int>(assembly.solids.size());
+  UnionFind same(assembly.solids.size());
+  if (options.interfaces == "conform")
+    for (const Interface& i : assembly.interfaces) same.unite(i.solids[0] - 1, i.solids[1] - 1);
+  std::vector<std::vector<int>> units(assembly.solids.size());
+  for (int s = 0; s < count; ++s) units[static_cast<std::size_t>(same.find(s))].push_back(s + 1);
+  std::erase_if(units, [](const auto& unit) { return unit.empty(); });
+  return units;
+}
+
+std::string names(const Assembly& assembly, const std::vector<int>& unit) {
+  std::string text;
+  for (const int s : unit) text += (text.empty() ? "" : ", ") + assembly.name(s);
+  return text;
+}
+
+ConformalMesh mesh_unit(const Assembly& assembly, const std::vector<int>& unit, const MeshOptions& options, const Monitor& monitor) {
+  try {
+    if (unit.size() > 1) return mesh_conformally(conform(assembly, unit, monitor), assembly, options, monitor);
+    const int s = unit.front();
+    const MeshOptions own = without_solids(options_of_solid(options, assembly, s));
+    Session session(assembly.solids[static_cast<std::size_t>(s) - 1], own);
+    PartMesh made = mesh_part(session, own, monitor);
+    return {std::move(made.fem), {{assembly.labels[static_cast<std::size_t>(s) - 1], std::move(made.report)}}};
+  } catch (const InvalidInput& e) {
+    throw InvalidInput(names(assembly, unit) + ": " + e.what());
+  } catch (const StageFailed& e) {
+    throw StageFailed(e.stage(), names(assembly, unit) + ": " + e.what() + (unit.size() > 1 ? "; --interfaces separate meshes each solid by itself" : ""), e.entities());
+  }
+}
+
+PartMesh mesh_solids(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor) {
+  const std::vector<std::vector<int>> units = units_of(assembly, options);
+  std::vector<FemMesh> meshes;
+  std::vector<int> numbers;
+  std::vector<SolidReport> reports(assembly.solids.size());
+  int hexes = 0;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    monitor.log(names(assembly, units[i]));
+    const Monitor own(monitor, share_of(monitor, static_cast<int>(units.size() - i)));
+    ConformalMesh made = mesh_unit(assembly, units[i], options, own);
+    for (std::size_t k = 0; k < units[i].size(); ++k) {
+      SolidReport& report = reports[static_cast<std::size_t>(units[i][k]) - 1];
+      report = std::move(made.reports[k]);
+      report.first_hex = hexes;
+      hexes += report.report.hexes;
+    }
+    meshes.push_back(std::move(made.fem));
+    numbers.push_back(units[i].size() == 1 ? units[i].front() : 0);
+  }
+  const bool separate = options.interfaces == "separate";
+  PartMesh whole{join(meshes, numbers, separate ? assembly.interfaces : std::vector<Interface>()), join(std::move(reports))};
+  MeshReport& r = whole.report;
+  r.options = options;
+  r.nodes = static_cast<int>(whole.fem.points.size());
+  for (const Interface& i : assembly.interfaces) r.interfaces.push_back({i.solids, i.faces, i.area});
+  r.warnings.insert(r.warnings.begin(), assembly.warnings.begin(), assembly.warnings.end());
+  return whole;
+}
+
+}  // namespace
+
+PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& options, const Monitor& monitor) {
   const auto read_start = Monitor::Clock::now();
-  Session session(read(), options);
-  const double read_seconds = seconds_since(read_start);
-  PartMesh made = mesh_part(session, options, monitor);
+  const Assembly assembly = read();
+  check(options, assembly.diagonal(), assembly.faces(), assembly.edges(), static_cast<int>(assembly.solids.size()));
+  PartMesh made;
+  double read_seconds = 0;
+  if (assembly.solids.size() == 1) {
+    Session session(assembly.solids.front(), options);
+    read_seconds = seconds_since(read_start);
+    made = mesh_part(session, options, monitor);
+  } else {
+    check_by_solid(options, assembly);
+    read_seconds = seconds_since(read_start);
+    made = mesh_solids(assembly, options, monitor);
+  }
   made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
   return made;
+}
+
+PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor) {
+  return mesh_part([&] { return Assembly{{read()}, {""}, {}}; }, options, monitor);
 }
 
 }  // namespace polycube

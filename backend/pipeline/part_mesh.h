@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "cad/cad.h"
+#include "cad/assembly.h"
 #include "core/monitor.h"
 #include "core/options.h"
 #include "core/report.h"
@@ -18,7 +18,10 @@ struct PartMesh {
 };
 
 /// Reads the part, checks the options against it, meshes it and makes elements of the order asked for. The caller's monitor carries
-/// progress, cancel and deadline. Throws what `read` and mesh() throw.
+/// progress, cancel and deadline. Several solids go into one mesh, each with nodes of its own (MeshOptions::interfaces "separate"). Throws what `read` and mesh()
+/// throw, with the solid's name where there are several.
+PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& options, const Monitor& monitor);
+/// The same of one solid.
 PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor);
 
 /// The same on a part that is there already: its stages begin with what the session has not made before.

@@ -10,6 +10,7 @@
 #include "pipeline/search/evaluator.h"
 #include "pipeline/session.h"
 #include "pipeline/shortfalls.h"
+#include "pipeline/solids.h"
 
 namespace polycube {
 namespace {
@@ -69,12 +70,14 @@ MeshOptions structural(const MeshOptions& options) {
   return result;
 }
 
-void check_all(const CadModel& model, const MeshOptions& options) {
-  check(options);
-  check(options, model.diagonal(), model.faces(), model.edges());
+/// Checked options, those of the solid as those of all there is.
+MeshOptions checked(const CadModel& model, const MeshOptions& given) {
+  check(given, model.diagonal(), model.faces(), model.edges());
+  MeshOptions options = without_solids(given);
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
   check_biases(model, options.bias);
+  return options;
 }
 
 }  // namespace
@@ -91,7 +94,7 @@ struct Session::Prepared {
   Structures structures;
 };
 
-Session::Session(CadModel model, const MeshOptions& options) : model_(std::move(model)), first_(options) { check_all(model_, options); }
+Session::Session(CadModel model, const MeshOptions& options) : model_(std::move(model)), first_(checked(model_, options)) {}
 
 Session::~Session() = default;
 
@@ -118,8 +121,8 @@ void Session::prepare(const Monitor& monitor) {
   }
 }
 
-MeshResult Session::mesh(const MeshOptions& options, const Monitor& monitor) {
-  check_all(model_, options);
+MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
+  const MeshOptions options = checked(model_, given);
   Prepared& p = prepared(options);
   p.monitor.follow(monitor);
   p.clock.restart();
@@ -138,7 +141,7 @@ MeshResult Session::mesh(const MeshOptions& options, const Monitor& monitor) {
   const QualitySummary quality = summarise(result.mesh);
   if (!(quality.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells lose their volume on the way back to the part's place");
   MeshReport& r = result.report;
-  r.options = options;
+  r.options = given;
   r.warnings.insert(r.warnings.begin(), model_.warnings().begin(), model_.warnings().end());
   r.size /= pose.scale;
   r.quality = quality;

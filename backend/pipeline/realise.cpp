@@ -12,9 +12,9 @@ constexpr int kFewFolds = 5;
 }  // namespace
 
 RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling& labelling, Features& features, const DeformOptions& options,
-                    const Monitor& monitor) {
+                    const Monitor& monitor, const std::vector<Chart>& fixed) {
   RealisedMap bare;
-  bare.map = deform(tets, labelling.frame, labelling.label, {}, options, monitor, &bare.report);
+  bare.map = deform(tets, labelling.frame, labelling.label, fixed, options, monitor, &bare.report);
   if (features.charts.empty()) return bare;
   std::vector<char> folded(tets.tets.size(), 0);
   for (int t : bare.report.flipped_tets) folded[t] = 1;
@@ -38,6 +38,7 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Chart> charts;
     for (const FeatureChart& f : features.charts) charts.push_back(f.chart);
+    charts.insert(charts.end(), fixed.begin(), fixed.end());
     result.map = deform(tets, labelling.frame, labelling.label, charts, options, monitor, &result.report);
     std::vector<int> blame(static_cast<std::size_t>(model.edge_count()) + 1, 0);
     for (int t : result.report.flipped_tets) {

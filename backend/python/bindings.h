@@ -8,7 +8,8 @@
 #include <mutex>
 #include <optional>
 
-#include "cad/cad.h"
+#include "cad/assembly.h"
+#include "core/error.h"
 #include "core/monitor.h"
 #include "core/options.h"
 
@@ -42,9 +43,15 @@ class Callbacks {
 /// Options from keyword arguments; None means the default. Throws InvalidInput.
 MeshOptions options_from(const py::kwargs& given);
 
-/// Exactly one of path and brep must be given. Throws InvalidInput.
-CadModel read_model(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
-                    const MeshOptions& options, const Monitor& monitor);
+/// CadModel for one solid, Assembly for as many as there are. Exactly one of path and brep must be given. Throws InvalidInput.
+template <class Part>
+Part read_part(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+               const MeshOptions& options, const Monitor& monitor) {
+  if (path.has_value() == brep.has_value()) throw InvalidInput("give either path or brep");
+  if (object && brep) throw InvalidInput("object is for FreeCAD documents only");
+  const ReadOptions how{.object = object.value_or(""), .sew = options.sew};
+  return path ? Part::read(*path, how, monitor) : Part::from_brep(*brep, how, monitor);
+}
 
 /// Runs `work` with the GIL released and the time limit of the options, and turns what callbacks threw into what comes out.
 template <typename Work>

@@ -17,7 +17,7 @@ py::dict groups(const Mesh& mesh) {
     py::dict entry;
     entry["nodes"] = to_array(group.nodes);
     if (group.entity.dim > 0) entry[kGroupElements.at(static_cast<std::size_t>(group.entity.dim))] = to_array(group.elements);
-    all[py::str(polycube::name(group.entity))] = entry;
+    all[py::str(group_name(group))] = entry;
   }
   return all;
 }
@@ -31,7 +31,7 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   return run_released(callbacks, options, [&] {
-    return mesh_part([&] { return read_model(path, brep, object, options, callbacks.monitor); }, options, callbacks.monitor);
+    return mesh_part([&] { return read_part<Assembly>(path, brep, object, options, callbacks.monitor); }, options, callbacks.monitor);
   });
 }
 
@@ -72,7 +72,7 @@ std::unique_ptr<PartSession> prepare(const std::optional<std::string>& path, con
                                      const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
-  CadModel model = run_released(callbacks, options, [&] { return read_model(path, brep, object, options, callbacks.monitor); });
+  CadModel model = run_released(callbacks, options, [&] { return read_part<CadModel>(path, brep, object, options, callbacks.monitor); });
   auto session = std::make_unique<PartSession>(std::move(model), given);
   session->prepare(callbacks);
   return session;
@@ -92,6 +92,7 @@ void bind_mesh(py::module_& module) {
       std::make_pair("nodes", [](const Mesh& m) { return py::object(to_array<double>(m.fem.points, 3)); }),
       std::make_pair("hexes", [](const Mesh& m) { return py::object(nodes_of(m, m.fem.hexes)); }),
       std::make_pair("hex_block", [](const Mesh& m) { return py::object(to_array(m.fem.hex_block)); }),
+      std::make_pair("hex_solid", [](const Mesh& m) { return py::object(to_array(solid_numbers(m.fem))); }),
       std::make_pair("quads", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quads, m.fem.order == 2 ? 8 : 4)); }),
       std::make_pair("quad_face", [](const Mesh& m) { return py::object(to_array(m.fem.quad_face)); }),
       std::make_pair("quad_hex", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quad_hex, 2)); }),
@@ -119,7 +120,7 @@ void bind_mesh(py::module_& module) {
              "A Session of one CAD solid, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");
   module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-             "Hexahedral mesh of one CAD solid. Further keyword arguments: options().");
+             "Hexahedral mesh of a CAD solid, or of several. Further keyword arguments: options().");
 }
 
 }  // namespace polycube::python

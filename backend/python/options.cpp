@@ -53,14 +53,6 @@ MeshOptions options_from(const py::kwargs& given) {
   return parse_options(texts);
 }
 
-CadModel read_model(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
-                    const MeshOptions& options, const Monitor& monitor) {
-  if (path.has_value() == brep.has_value()) throw InvalidInput("give either path or brep");
-  if (object && brep) throw InvalidInput("object is for FreeCAD documents only");
-  const ReadOptions how{.object = object.value_or(""), .sew = options.sew};
-  return path ? CadModel::read(*path, how, monitor) : CadModel::from_brep(*brep, how, monitor);
-}
-
 void bind_options(py::module_& module) {
   module.def("options", []() -> py::object { return py::module_::import("json").attr("loads")(describe_engine())["options"]; },
              "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");

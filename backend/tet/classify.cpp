@@ -107,6 +107,55 @@ std::array<int, N> sorted(std::array<int, N> key) {
   return key;
 }
 
+/// What Gmsh's mesh is on the CAD model.
+struct Classified {
+  Classified(const RawMesh& given, const CadModel& model)
+      : raw(given), cad{match(given, model, 0), match(given, model, 1), match(given, model, 2)}, index(given.points.size(), -1) {
+    std::vector<char> used(raw.points.size(), 0);
+    for (const Tet& tet : raw.tets)
+      for (const int v : tet) used[at(v)] = 1;
+    int count = 0;
+    for (std::size_t i = 0; i < raw.points.size(); ++i)
+      if (used[i]) index[i] = count++;
+    for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
+      Triangle t = raw.triangles[i];
+      for (int& v : t) v = index[at(v)];
+      face_of[sorted(t)] = cad[2].at(raw.triangle_tag[i]);
+    }
+    for (std::size_t i = 0; i < raw.segments.size(); ++i) {
+      segments.push_back({index[at(raw.segments[i][0])], index[at(raw.segments[i][1])]});
+      segment_edge.push_back(cad[1].at(raw.segment_tag[i]));
+    }
+  }
+
+  /// Points with their classification, and tets turned the right way.
+  TetMesh tets() const {
+    TetMesh mesh;
+    for (std::size_t i = 0; i < raw.points.size(); ++i) {
+      if (index[i] < 0) continue;
+      mesh.points.push_back(raw.points[i]);
+      const CadRef& entity = raw.point_entity[i];
+      mesh.point_cad.push_back(entity.dim == 3 ? CadRef{3, 1} : CadRef{entity.dim, cad[at(entity.dim)].at(entity.id)});
+    }
+    for (const Tet& tet : raw.tets) {
+      Tet t;
+      for (std::size_t k = 0; k < 4; ++k) t[k] = index[at(tet[k])];
+      const double volume = signed_volume(mesh.points[at(t[0])], mesh.points[at(t[1])], mesh.points[at(t[2])], mesh.points[at(t[3])]);
+      if (volume == 0) throw Unusable("a tetrahedron has no volume");
+      if (volume < 0) std::swap(t[2], t[3]);
+      mesh.tets.push_back(t);
+    }
+    return mesh;
+  }
+
+  const RawMesh& raw;
+  std::array<std::map<int, int>, 3> cad;
+  std::vector<int> index;           ///< per point of Gmsh's: its number in the mesh, -1 for one of no tet
+  std::map<Triangle, int> face_of;  ///< by sorted points
+  std::vector<Segment> segments;
+  std::vector<int> segment_edge;
+};
+
 }  // namespace
 
 double signed_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return (b - a).cross(c - a).dot(d - a) / 6; }
@@ -140,50 +189,138 @@ std::vector<Triangle> boundary_facets(const std::vector<Tet>& tets) {
 }
 
 TetMesh classify(const RawMesh& raw, const CadModel& model) {
-  const std::array<std::map<int, int>, 3> cad{match(raw, model, 0), match(raw, model, 1), match(raw, model, 2)};
-  TetMesh mesh;
-  std::vector<int> index(raw.points.size(), -1);
-  std::vector<char> used(raw.points.size(), 0);
-  for (const Tet& tet : raw.tets)
-    for (const int v : tet) used[at(v)] = 1;
-  for (std::size_t i = 0; i < raw.points.size(); ++i) {
-    if (!used[i]) continue;
-    index[i] = static_cast<int>(mesh.points.size());
-    mesh.points.push_back(raw.points[i]);
-    const CadRef& entity = raw.point_entity[i];
-    mesh.point_cad.push_back(entity.dim == 3 ? CadRef{3, 1} : CadRef{entity.dim, cad[at(entity.dim)].at(entity.id)});
-  }
-  for (const Tet& tet : raw.tets) {
-    Tet t;
-    for (std::size_t k = 0; k < 4; ++k) t[k] = index[at(tet[k])];
-    const double volume = signed_volume(mesh.points[at(t[0])], mesh.points[at(t[1])], mesh.points[at(t[2])], mesh.points[at(t[3])]);
-    if (volume == 0) throw Unusable("a tetrahedron has no volume");
-    if (volume < 0) std::swap(t[2], t[3]);
-    mesh.tets.push_back(t);
-  }
-  std::map<Triangle, int> face_of;
-  for (std::size_t i = 0; i < raw.triangles.size(); ++i) {
-    Triangle t = raw.triangles[i];
-    for (int& v : t) v = index[at(v)];
-    face_of[sorted(t)] = cad[2].at(raw.triangle_tag[i]);
-  }
+  const Classified found(raw, model);
+  TetMesh mesh = found.tets();
   mesh.triangles = boundary_facets(mesh.tets);
   std::set<Segment> boundary_edges;
   for (const Triangle& t : mesh.triangles) {
-    const auto found = face_of.find(sorted(t));
-    if (found == face_of.end()) throw Unusable("a boundary facet of the tetrahedra lies on no CAD face");
-    mesh.triangle_face.push_back(found->second);
+    const auto face = found.face_of.find(sorted(t));
+    if (face == found.face_of.end()) throw Unusable("a boundary facet of the tetrahedra lies on no CAD face");
+    mesh.triangle_face.push_back(face->second);
     for (std::size_t k = 0; k < 3; ++k) boundary_edges.insert(sorted(Segment{t[k], t[(k + 1) % 3]}));
   }
   if (mesh.triangles.size() != raw.triangles.size()) throw Unusable("some surface triangles bound no tetrahedron");
-  for (std::size_t i = 0; i < raw.segments.size(); ++i) {
-    const Segment s{index[at(raw.segments[i][0])], index[at(raw.segments[i][1])]};
-    const int edge = cad[1].at(raw.segment_tag[i]);
-    if (!boundary_edges.count(sorted(s))) throw Unusable("a piece of " + name({1, edge}) + " is no edge of the boundary", {{1, edge}});
-    mesh.segments.push_back(s);
+  for (std::size_t i = 0; i < found.segments.size(); ++i) {
+    const int edge = found.segment_edge[i];
+    if (!boundary_edges.count(sorted(found.segments[i]))) throw Unusable("a piece of " + name({1, edge}) + " is no edge of the boundary", {{1, edge}});
+    mesh.segments.push_back(found.segments[i]);
     mesh.segment_edge.push_back(edge);
   }
   return mesh;
+}
+
+TetMesh classify(const RawMesh& raw, const CadModel& whole, const std::vector<CadModel>& solids) {
+  const Classified found(raw, whole);
+  TetMesh mesh = found.tets();
+  // The solid of a tag is the one that the faces of its tets bound.
+  std::map<int, std::vector<Tet>> tets_of;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) tets_of[raw.tet_tag[t]].push_back(mesh.tets[t]);
+  std::map<int, int> solid_of;
+  for (const auto& [tag, tets] : tets_of) {
+    std::set<int> faces;
+    for (const Triangle& t : boundary_facets(tets)) {
+      const auto face = found.face_of.find(sorted(t));
+      if (face == found.face_of.end()) throw Unusable("a boundary facet of the tetrahedra lies on no CAD face");
+      faces.insert(face->second);
+    }
+    const auto solid = std::find_if(solids.begin(), solids.end(), [&](const CadModel& s) { return std::set<int>(s.faces().begin(), s.faces().end()) == faces; });
+    if (solid == solids.end()) throw Unusable("the tetrahedra of a solid are not bounded by its faces");
+    solid_of[tag] = static_cast<int>(solid - solids.begin());
+  }
+  if (solid_of.size() != solids.size()) throw Unusable("a solid has no tetrahedra");
+  for (const int tag : raw.tet_tag) mesh.tet_solid.push_back(solid_of.at(tag));
+
+  // Of every solid all of its boundary: what two have in common is inner.
+  std::map<Triangle, int> count;
+  std::vector<std::vector<Triangle>> boundaries;
+  for (int s = 0; s < static_cast<int>(solids.size()); ++s) {
+    std::vector<Tet> own;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+      if (mesh.tet_solid[t] == s) own.push_back(mesh.tets[t]);
+    boundaries.push_back(boundary_facets(own));
+    for (const Triangle& t : boundaries.back()) ++count[sorted(t)];
+  }
+  std::set<Segment> outer_edges, inner_edges;
+  std::set<Triangle> done;
+  for (const auto& boundary : boundaries) {
+    for (const Triangle& t : boundary) {
+      const bool outer = count.at(sorted(t)) == 1;
+      if (!outer && !done.insert(sorted(t)).second) continue;
+      (outer ? mesh.triangles : mesh.inner_triangles).push_back(t);
+      (outer ? mesh.triangle_face : mesh.inner_face).push_back(found.face_of.at(sorted(t)));
+      for (std::size_t k = 0; k < 3; ++k) (outer ? outer_edges : inner_edges).insert(sorted(Segment{t[k], t[(k + 1) % 3]}));
+    }
+  }
+  if (mesh.triangles.size() + mesh.inner_triangles.size() != raw.triangles.size()) throw Unusable("some surface triangles bound no tetrahedron");
+  for (std::size_t i = 0; i < found.segments.size(); ++i) {
+    const Segment key = sorted(found.segments[i]);
+    const int edge = found.segment_edge[i];
+    const bool outer = outer_edges.count(key) > 0;
+    if (!outer && !inner_edges.count(key)) throw Unusable("a piece of " + name({1, edge}) + " is no edge of the boundary", {{1, edge}});
+    (outer ? mesh.segments : mesh.inner_segments).push_back(found.segments[i]);
+    (outer ? mesh.segment_edge : mesh.inner_segment_edge).push_back(edge);
+  }
+  std::vector<char> on_outer(mesh.points.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const int v : t) on_outer[at(v)] = 1;
+  for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+    if (on_outer[p]) continue;
+    if (mesh.point_cad[p].dim == 0) mesh.inner_vertices.emplace_back(static_cast<int>(p), mesh.point_cad[p].id);
+    mesh.point_cad[p] = {3, 1};
+  }
+  return mesh;
+}
+
+TetMesh tets_of_solid(const TetMesh& mesh, int solid, std::vector<int>* points) {
+  TetMesh own;
+  std::vector<int> index(mesh.points.size(), -1), back;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    if (mesh.tet_solid[t] != solid) continue;
+    Tet& tet = own.tets.emplace_back(mesh.tets[t]);
+    for (int& v : tet) {
+      if (index[at(v)] < 0) {
+        index[at(v)] = static_cast<int>(back.size());
+        back.push_back(v);
+      }
+      v = index[at(v)];
+    }
+  }
+  for (const int v : back) {
+    own.points.push_back(mesh.points[at(v)]);
+    own.point_cad.push_back({3, 1});
+  }
+  std::map<Triangle, int> face_of;
+  for (const auto& [triangles, faces] : {std::pair(&mesh.triangles, &mesh.triangle_face), std::pair(&mesh.inner_triangles, &mesh.inner_face)}) {
+    for (std::size_t i = 0; i < triangles->size(); ++i) {
+      Triangle t = (*triangles)[i];
+      for (int& v : t) v = index[at(v)];
+      if (*std::min_element(t.begin(), t.end()) >= 0) face_of[sorted(t)] = (*faces)[i];
+    }
+  }
+  own.triangles = boundary_facets(own.tets);
+  std::set<Segment> edges;
+  for (const Triangle& t : own.triangles) {
+    own.triangle_face.push_back(face_of.at(sorted(t)));
+    for (std::size_t k = 0; k < 3; ++k) {
+      edges.insert(sorted(Segment{t[k], t[(k + 1) % 3]}));
+      own.point_cad[at(t[k])] = {2, own.triangle_face.back()};
+    }
+  }
+  for (const auto& [segments, of] : {std::pair(&mesh.segments, &mesh.segment_edge), std::pair(&mesh.inner_segments, &mesh.inner_segment_edge)}) {
+    for (std::size_t i = 0; i < segments->size(); ++i) {
+      const Segment s{index[at((*segments)[i][0])], index[at((*segments)[i][1])]};
+      if (s[0] < 0 || s[1] < 0 || !edges.count(sorted(s))) continue;
+      own.segments.push_back(s);
+      own.segment_edge.push_back((*of)[i]);
+      for (const int v : s) own.point_cad[at(v)] = {1, (*of)[i]};
+    }
+  }
+  for (std::size_t p = 0; p < mesh.points.size(); ++p)
+    if (index[p] >= 0 && mesh.point_cad[p].dim == 0) own.point_cad[at(index[p])] = mesh.point_cad[p];
+  for (const auto& [p, vertex] : mesh.inner_vertices)
+    if (index[at(p)] >= 0) own.point_cad[at(index[at(p)])] = {0, vertex};
+  if (points) *points = std::move(back);
+  return own;
 }
 
 void check_complete(const TetMesh& mesh, const CadModel& model) {

@@ -22,6 +22,12 @@ class Unusable : public std::runtime_error {
 /// Throws Unusable: an entity is missing or doubled, a boundary facet is not classified, a tet has no volume.
 TetMesh classify(const RawMesh& raw, const CadModel& model);
 
+/// The same of several solids in one mesh: `whole` has the entities of all, `solids` are in the order of TetMesh::tet_solid.
+TetMesh classify(const RawMesh& raw, const CadModel& whole, const std::vector<CadModel>& solids);
+
+/// The tets of one solid with all of their boundary; `points`, if not null, gets the point of `mesh` that each of its points is.
+TetMesh tets_of_solid(const TetMesh& mesh, int solid, std::vector<int>* points = nullptr);
+
 /// Throws Unusable unless every CAD vertex has its node, every edge with a length its segments, every face its triangles, and the boundary the
 /// Euler characteristic of the CAD's.
 void check_complete(const TetMesh& mesh, const CadModel& model);

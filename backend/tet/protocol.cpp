@@ -9,7 +9,7 @@
 namespace polycube {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x31746574636c6f70;  // distinguishes a whole file from any other
+constexpr std::uint64_t kMagic = 0x32746574636c6f70;  // distinguishes a whole file from any other
 constexpr std::uint64_t kEnd = ~kMagic;
 
 /// The classification is two ints, the coordinates doubles: every element is written as it lies in memory. Both ends are the same machine.
@@ -35,7 +35,7 @@ static_assert(std::is_trivially_copyable_v<CadRef> && sizeof(Vec3) == 3 * sizeof
 template <class Mesh, class Visit>
 void visit_members(Mesh& mesh, Visit visit) {
   visit(mesh.points), visit(mesh.point_entity), visit(mesh.segments), visit(mesh.segment_tag);
-  visit(mesh.triangles), visit(mesh.triangle_tag), visit(mesh.tets);
+  visit(mesh.triangles), visit(mesh.triangle_tag), visit(mesh.tets), visit(mesh.tet_tag);
 }
 
 }  // namespace

@@ -22,28 +22,16 @@ class Splitter {
   }
 
   void split_cut_corners() {
-    std::map<Segment, std::array<int, 2>> triangles_of;
     std::vector<std::set<int>> edges_at(mesh_.points.size());
     std::set<Segment> segments;
-    for (std::size_t i = 0; i < mesh_.segments.size(); ++i) {
-      segments.insert(edge_key(mesh_.segments[i][0], mesh_.segments[i][1]));
-      for (const int v : mesh_.segments[i]) edges_at[at(v)].insert(mesh_.segment_edge[i]);
-    }
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [it, fresh] = triangles_of.try_emplace(edge_key(mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3]), std::array{-1, -1});
-        it->second[fresh ? 0 : 1] = static_cast<int>(t);
+    for (const auto& [list, edges] : {std::pair(&mesh_.segments, &mesh_.segment_edge), std::pair(&mesh_.inner_segments, &mesh_.inner_segment_edge)}) {
+      for (std::size_t i = 0; i < list->size(); ++i) {
+        segments.insert(edge_key((*list)[i][0], (*list)[i][1]));
+        for (const int v : (*list)[i]) edges_at[at(v)].insert((*edges)[i]);
       }
-    std::vector<Segment> cuts;
-    for (const auto& [edge, triangles] : triangles_of) {
-      if (segments.count(edge)) continue;
-      std::vector<int> common;
-      std::set_intersection(edges_at[at(edge[0])].begin(), edges_at[at(edge[0])].end(), edges_at[at(edge[1])].begin(), edges_at[at(edge[1])].end(),
-                            std::back_inserter(common));
-      if (!common.empty()) cuts.push_back(edge);
     }
-    longest_first(cuts);
-    for (const Segment& edge : cuts) split_surface_edge(edge);
+    split_cut_corners(mesh_.triangles, mesh_.triangle_face, 2, edges_at, segments);
+    split_cut_corners(mesh_.inner_triangles, mesh_.inner_face, 3, edges_at, segments);
   }
 
   void split_inner_edges() {
@@ -66,9 +54,11 @@ class Splitter {
 
   void split_inner_facets() {
     std::set<Triangle> boundary, inner;
-    for (Triangle t : mesh_.triangles) {
-      std::sort(t.begin(), t.end());
-      boundary.insert(t);
+    for (const auto* triangles : {&mesh_.triangles, &mesh_.inner_triangles}) {
+      for (Triangle t : *triangles) {
+        std::sort(t.begin(), t.end());
+        boundary.insert(t);
+      }
     }
     for (const Tet& tet : mesh_.tets)
       for (std::size_t skip = 0; skip < 4; ++skip) {
@@ -87,13 +77,31 @@ class Splitter {
         for (const int corner : {facet[1], facet[2]}) {
           Tet copy = tet;
           std::replace(copy.begin(), copy.end(), corner, middle);
-          add_tet(copy);
+          add_tet(copy, t);
         }
       }
     }
   }
 
  private:
+  /// `dim`: of the new points' classification, 3 for those between solids.
+  void split_cut_corners(std::vector<Triangle>& triangles, std::vector<int>& faces, int dim, const std::vector<std::set<int>>& edges_at, const std::set<Segment>& segments) {
+    std::set<Segment> edges;
+    for (const Triangle& t : triangles)
+      for (std::size_t k = 0; k < 3; ++k) edges.insert(edge_key(t[k], t[(k + 1) % 3]));
+    std::vector<Segment> cuts;
+    for (const Segment& edge : edges) {
+      // Points that this adds are on no CAD edge.
+      if (segments.count(edge) || at(std::max(edge[0], edge[1])) >= edges_at.size()) continue;
+      std::vector<int> common;
+      std::set_intersection(edges_at[at(edge[0])].begin(), edges_at[at(edge[0])].end(), edges_at[at(edge[1])].begin(), edges_at[at(edge[1])].end(),
+                            std::back_inserter(common));
+      if (!common.empty()) cuts.push_back(edge);
+    }
+    longest_first(cuts);
+    for (const Segment& edge : cuts) split_surface_edge(edge, triangles, faces, dim);
+  }
+
   void longest_first(std::vector<Segment>& edges) const {
     const auto length = [&](const Segment& e) { return (mesh_.points[at(e[0])] - mesh_.points[at(e[1])]).squaredNorm(); };
     std::sort(edges.begin(), edges.end(), [&](const Segment& a, const Segment& b) {
@@ -104,11 +112,12 @@ class Splitter {
 
   void mark_boundary() {
     on_boundary_.assign(mesh_.points.size(), false);
-    for (const Triangle& t : mesh_.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        on_boundary_[at(t[k])] = true;
-        boundary_edges_.insert(edge_key(t[k], t[(k + 1) % 3]));
-      }
+    for (const auto* triangles : {&mesh_.triangles, &mesh_.inner_triangles})
+      for (const Triangle& t : *triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+          on_boundary_[at(t[k])] = true;
+          boundary_edges_.insert(edge_key(t[k], t[(k + 1) % 3]));
+        }
   }
 
   std::vector<int> tets_around(const Segment& edge) const {
@@ -126,9 +135,11 @@ class Splitter {
     return static_cast<int>(mesh_.points.size()) - 1;
   }
 
-  void add_tet(const Tet& tet) {
+  /// A piece of tet `whole`.
+  void add_tet(const Tet& tet, int whole) {
     for (const int v : tet) around_[at(v)].push_back(static_cast<int>(mesh_.tets.size()));
     mesh_.tets.push_back(tet);
+    if (!mesh_.tet_solid.empty()) mesh_.tet_solid.push_back(mesh_.tet_solid[at(whole)]);
   }
 
   void replace(int t, int from, int to) {
@@ -143,7 +154,7 @@ class Splitter {
       Tet copy = mesh_.tets[at(t)];
       std::replace(copy.begin(), copy.end(), edge[0], middle);
       replace(t, edge[1], middle);
-      add_tet(copy);
+      add_tet(copy, t);
     }
   }
 
@@ -160,26 +171,26 @@ class Splitter {
     return true;
   }
 
-  void split_surface_edge(const Segment& edge) {
+  void split_surface_edge(const Segment& edge, std::vector<Triangle>& triangles, std::vector<int>& faces, int dim) {
     // The two triangles are looked up afresh: earlier splits have changed them.
     std::vector<std::size_t> sides;
-    for (std::size_t t = 0; t < mesh_.triangles.size() && sides.size() < 2; ++t) {
-      const Triangle& triangle = mesh_.triangles[t];
+    for (std::size_t t = 0; t < triangles.size() && sides.size() < 2; ++t) {
+      const Triangle& triangle = triangles[t];
       if (std::count(triangle.begin(), triangle.end(), edge[0]) && std::count(triangle.begin(), triangle.end(), edge[1])) sides.push_back(t);
     }
-    if (sides.size() != 2 || mesh_.triangle_face[sides[0]] != mesh_.triangle_face[sides[1]]) return;
-    const int face = mesh_.triangle_face[sides[0]];
+    if (sides.size() != 2 || faces[sides[0]] != faces[sides[1]]) return;
+    const int face = faces[sides[0]];
     const FacePoint foot = model_.project_to_face(face, (mesh_.points[at(edge[0])] + mesh_.points[at(edge[1])]) / 2);
     const std::vector<int> tets = tets_around(edge);
     if (!keeps_volumes(edge, foot.point, tets)) return;
-    const int middle = add_point(foot.point, {2, face});
+    const int middle = add_point(foot.point, dim == 2 ? CadRef{2, face} : CadRef{3, 1});
     split_edge(edge, middle, tets);
     for (const std::size_t t : sides) {
-      Triangle copy = mesh_.triangles[t];
+      Triangle copy = triangles[t];
       std::replace(copy.begin(), copy.end(), edge[0], middle);
-      std::replace(mesh_.triangles[t].begin(), mesh_.triangles[t].end(), edge[1], middle);
-      mesh_.triangles.push_back(copy);
-      mesh_.triangle_face.push_back(face);
+      std::replace(triangles[t].begin(), triangles[t].end(), edge[1], middle);
+      triangles.push_back(copy);
+      faces.push_back(face);
     }
   }
 

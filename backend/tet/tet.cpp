@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -84,7 +85,11 @@ void refuse_contacts(const CadModel& model) {
 
 }  // namespace
 
-TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const Monitor& monitor) {
+namespace {
+
+using Classify = std::function<TetMesh(const RawMesh&)>;
+
+TetMesh climb(const CadModel& model, const TetOptions& options, const Classify& classified, const std::function<void()>& look, const Monitor& monitor) {
   if (!(options.size > 0)) throw std::invalid_argument("tet: the size must be positive");
   monitor.progress("tet", 0);
   const TemporaryFolder folder;
@@ -101,8 +106,7 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
       write_setting(setting_of(rung, model, options), setting);
       std::error_code ignored;
       std::filesystem::remove(result, ignored);
-      TetMesh mesh = classify(attempt({worker, part, setting, result}, errors, options.attempt_limit, monitor), model);
-      check_complete(mesh, model);
+      TetMesh mesh = classified(attempt({worker, part, setting, result}, errors, options.attempt_limit, monitor));
       split_for_map(mesh, model, monitor);
       if (const std::vector<std::string> problems = check(mesh); !problems.empty()) throw Unusable(problems.front());
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -114,10 +118,33 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
       if (!failure.entities.empty()) entities = failure.entities;
       monitor.log("tet: " + describe(rung) + ": " + reason);
       // No setting helps a solid that touches itself, and looking for that is too slow to be done for every part.
-      if (&rung == &kLadder.front()) refuse_contacts(model);
+      if (&rung == &kLadder.front()) look();
     }
   }
   throw StageFailed("tet", "Gmsh makes no usable tetrahedra with any of " + std::to_string(kLadder.size()) + " settings; last: " + reason, entities);
+}
+
+}  // namespace
+
+TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const Monitor& monitor) {
+  const auto classified = [&](const RawMesh& raw) {
+    TetMesh mesh = classify(raw, model);
+    check_complete(mesh, model);
+    return mesh;
+  };
+  return climb(model, options, classified, [&] { refuse_contacts(model); }, monitor);
+}
+
+TetMesh tetrahedralise(const CadModel& whole, const std::vector<CadModel>& solids, const TetOptions& options, const Monitor& monitor) {
+  const auto classified = [&](const RawMesh& raw) {
+    TetMesh mesh = classify(raw, whole, solids);
+    for (int s = 0; s < static_cast<int>(solids.size()); ++s) check_complete(tets_of_solid(mesh, s), solids[at(s)]);
+    return mesh;
+  };
+  const auto look = [&] {
+    for (const CadModel& solid : solids) refuse_contacts(solid);
+  };
+  return climb(whole, options, classified, look, monitor);
 }
 
 std::vector<std::string> check(const TetMesh& mesh) {
@@ -178,6 +205,11 @@ std::vector<std::string> check(const TetMesh& mesh) {
     if (mesh.triangle_face[i] < 1) {
       say("a boundary triangle has no CAD face");
       break;
+    }
+  for (const Triangle& t : mesh.inner_triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      uses.insert({{std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}, 0});
+      boundary[at(t[k])] = true;
     }
   for (const Segment& s : mesh.segments) {
     if (!uses.count({std::min(s[0], s[1]), std::max(s[0], s[1])})) say("a segment is no edge of the boundary");

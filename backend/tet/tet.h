@@ -17,6 +17,9 @@ struct TetOptions {
 /// (such tets and edges are split). Throws StageFailed("tet", ...) when every setting fails.
 TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const Monitor& monitor);
 
+/// The same of several solids that share faces, in one mesh: `whole` has the entities of all, `solids` are in the order of TetMesh::tet_solid.
+TetMesh tetrahedralise(const CadModel& whole, const std::vector<CadModel>& solids, const TetOptions& options, const Monitor& monitor);
+
 /// What is wrong with a tet mesh of the model; empty when nothing is.
 std::vector<std::string> check(const TetMesh& mesh);
 

@@ -68,8 +68,8 @@
       <translation>Hexaedernetz aus Form</translation>
     </message>
     <message>
-      <source>Creates a FEM mesh of hexahedra from the selected solid</source>
-      <translation>Erzeugt ein FEM-Netz aus Hexaedern vom gewählten Volumenkörper</translation>
+      <source>Creates a FEM mesh of hexahedra from the selected solid, or from several</source>
+      <translation>Erzeugt ein FEM-Netz aus Hexaedern vom gewählten Volumenkörper oder von mehreren</translation>
     </message>
     <message>
       <source>Solve with CalculiX</source>
@@ -668,16 +668,32 @@
       <translation>Verhältnis der Längen benachbarter Hexaeder, höchstens, wo sie von kleinen weg wachsen. 1: gleichmäßig in jedem Block.</translation>
     </message>
     <message>
-      <source>Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5.</source>
-      <translation>Elemente entlang von CAD-Kanten und zwischen gegenüberliegenden CAD-Flächen, wie Edge4=6,Face1-Face2=3.. (mindestens), ..4 (höchstens), 2..5.</translation>
+      <source>Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5; at least through the walls of a solid: Solid2=3..</source>
+      <translation>Elemente entlang von CAD-Kanten und zwischen gegenüberliegenden CAD-Flächen, etwa Edge4=6,Face1-Face2=3.. (mindestens), ..4 (höchstens), 2..5; mindestens durch die Wände eines Volumenkörpers: Solid2=3..</translation>
     </message>
     <message>
       <source>Sizes</source>
       <translation>Größen</translation>
     </message>
     <message>
-      <source>Other edge lengths at CAD faces and along the labels' axes, such as Face3=0.5,X=2.</source>
-      <translation>Andere Kantenlängen an CAD-Flächen und entlang der Achsen, wie Face3=0.5,X=2.</translation>
+      <source>Other edge lengths at CAD faces, along the labels' axes and of solids, such as Face3=0.5,X=2,Solid2=1.5.</source>
+      <translation>Andere Kantenlängen an CAD-Flächen, entlang der Achsen und von Volumenkörpern, etwa Face3=0.5,X=2,Solid2=1.5.</translation>
+    </message>
+    <message>
+      <source>Bias</source>
+      <translation>Abstufung</translation>
+    </message>
+    <message>
+      <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
+      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante durch die des ersten, etwa Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
+    </message>
+    <message>
+      <source>Interfaces</source>
+      <translation>Trennflächen</translation>
+    </message>
+    <message>
+      <source>Where solids touch: one mesh with common nodes (conform), or a mesh of each with nodes of its own, for ties and contact (separate).</source>
+      <translation>Wo Volumenkörper sich berühren: ein Netz mit gemeinsamen Knoten (conform), oder von jedem eines mit eigenen Knoten, für Verklebung und Kontakt (separate).</translation>
     </message>
     <message>
       <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>

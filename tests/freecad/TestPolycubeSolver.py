@@ -150,6 +150,13 @@ class FreeCadExamples(SolverTest):
         """Its load ends at clamped corners: a finer mesh is softer, 0.0937 is that of FreeCAD's tetrahedra."""
         self.check("boxanalysis_static", 0.0937, 0.02, size=2)
 
+    def test_two_boxes_in_tension(self):
+        """A material for each of two solids."""
+        self.check("material_multiple_tensionrod_twoboxes", 0.18363, 0.005, size=3)
+
+    def test_five_boxes_in_bending(self):
+        self.check("material_multiple_bendingbeam_fiveboxes", 1.0355, 0.005, size=2)
+
 
 class CylinderSide(SolverTest):
     RADIUS, HEIGHT = 10.0, 30.0

@@ -53,8 +53,9 @@ def renumbered(text, first, suffix):
     return "\n".join(lines) + "\n"
 
 
-@needs_calculix
-class Decks(FolderTest):
+class DeckTest(FolderTest):
+    """A test that runs decks of one solid of STEEL."""
+
     def mesh(self, shape, element_type, size, name="mesh.inp"):
         mesh = _polycube.mesh(brep=shape.exportBrepToString(), size=size, element_type=element_type)
         mesh.write(self.path(name))
@@ -98,6 +99,9 @@ RF
 *END STEP
 """
 
+
+@needs_calculix
+class Decks(DeckTest):
     def reaction(self, fixed, load, more=""):
         text = self.run_deck(self.STATIC.format(e=STEEL, fixed=fixed, load=load, more=more))
         return np.array(self.last(text, "total force")), text

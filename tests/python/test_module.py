@@ -95,7 +95,7 @@ class Mesh(FolderTest):
         again = pickle.loads(pickle.dumps(mesh.to_dict()))
         np.testing.assert_array_equal(again["nodes"], mesh.nodes)
         self.assertEqual(again["report"]["version"], _polycube.__version__)
-        self.assertEqual(set(again), {"order", "nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "groups", "scaled_jacobian", "edge_ratio", "skew", "warpage", "report", "hex_block"})
+        self.assertEqual(set(again), {"order", "nodes", "hexes", "quads", "quad_face", "quad_hex", "segments", "segment_edge", "groups", "scaled_jacobian", "edge_ratio", "skew", "warpage", "report", "hex_block", "hex_solid"})
 
     def test_smesh_order_mirrors(self):
         mesh = _polycube.mesh(brep=box().exportBrepToString(), size=2)

@@ -1,5 +1,6 @@
 #include "support/shapes.h"
 
+#include <BRepAlgoAPI_BuilderAlgo.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -375,6 +376,15 @@ std::string compound(const std::string& a, const std::string& b) {
   return text(compound_of({parse(a), parse(b)}));
 }
 
+std::string fused(const std::vector<std::string>& breps) {
+  TopTools_ListOfShape arguments;
+  for (const std::string& brep : breps) arguments.Append(parse(brep));
+  BRepAlgoAPI_BuilderAlgo fuse;
+  fuse.SetArguments(arguments);
+  fuse.Build();
+  return text(fuse.Shape());
+}
+
 std::string face_and_solid(const std::string& brep, int face) {
   const TopoDS_Shape whole = parse(brep);
   return text(compound_of({faces_of(whole)(face).Reversed(), whole}));
@@ -402,6 +412,16 @@ void write_step(const std::string& brep, const std::string& path, const std::str
   writer.Transfer(parse(brep), STEPControl_AsIs);
   writer.Write(path.c_str());
   Interface_Static::SetCVal("write.step.unit", "MM");
+}
+
+void write_step_products(const std::vector<std::pair<std::string, std::string>>& named, const std::string& path) {
+  STEPControl_Controller::Init();
+  STEPControl_Writer writer;
+  for (const auto& [name, brep] : named) {
+    Interface_Static::SetCVal("write.step.product.name", name.c_str());
+    writer.Transfer(parse(brep), STEPControl_AsIs);
+  }
+  writer.Write(path.c_str());
 }
 
 void write_iges(const std::string& brep, const std::string& path, const std::string& unit, bool solid) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace polycube::shapes {
@@ -56,6 +57,8 @@ std::string scaled(const std::string& brep, double factor);
 std::string loosened(const std::string& brep, double tolerance);
 /// One compound of both.
 std::string compound(const std::string& a, const std::string& b);
+/// One compound of the solids that their general fuse leaves: where they touch they share faces.
+std::string fused(const std::vector<std::string>& breps);
 
 /// A compound of one of the solid's faces (FreeCAD's number) and then the solid itself, which shares it.
 std::string face_and_solid(const std::string& brep, int face);
@@ -64,6 +67,8 @@ std::string taken_apart(const std::string& brep, double gap = 0);
 
 /// Files; `unit` as OCCT names it: "MM", "INCH", "M". The shape's numbers are mm.
 void write_step(const std::string& brep, const std::string& path, const std::string& unit = "MM");
+/// Each solid a product of that name.
+void write_step_products(const std::vector<std::pair<std::string, std::string>>& named, const std::string& path);
 /// `solid`: as a solid with topology (entity 186), else as trimmed surfaces.
 void write_iges(const std::string& brep, const std::string& path, const std::string& unit = "MM", bool solid = false);
 

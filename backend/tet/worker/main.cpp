@@ -55,7 +55,7 @@ RawMesh collect() {
       mesh.point_entity.push_back({dim, tag});
     }
   }
-  const auto collect_elements = [&](int dim, int type, auto& elements, std::vector<int>* element_tags) {
+  const auto collect_elements = [&](int dim, int type, auto& elements, std::vector<int>& element_tags) {
     for (const auto& [entity_dim, tag] : entities) {
       if (entity_dim != dim) continue;
       std::vector<std::size_t> element_ids, nodes;
@@ -64,13 +64,13 @@ RawMesh collect() {
       for (std::size_t i = 0; i + corners <= nodes.size(); i += corners) {
         auto& element = elements.emplace_back();
         for (std::size_t k = 0; k < corners; ++k) element[k] = index.at(nodes[i + k]);
-        if (element_tags) element_tags->push_back(tag);
+        element_tags.push_back(tag);
       }
     }
   };
-  collect_elements(1, 1, mesh.segments, &mesh.segment_tag);
-  collect_elements(2, 2, mesh.triangles, &mesh.triangle_tag);
-  collect_elements(3, 4, mesh.tets, nullptr);
+  collect_elements(1, 1, mesh.segments, mesh.segment_tag);
+  collect_elements(2, 2, mesh.triangles, mesh.triangle_tag);
+  collect_elements(3, 4, mesh.tets, mesh.tet_tag);
   return mesh;
 }
 

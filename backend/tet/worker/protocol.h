@@ -31,6 +31,7 @@ struct RawMesh {
   std::vector<Triangle> triangles;
   std::vector<int> triangle_tag;
   std::vector<Tet> tets;
+  std::vector<int> tet_tag;
 };
 
 /// Both pairs throw std::runtime_error when a file cannot be written or does not hold what it should.

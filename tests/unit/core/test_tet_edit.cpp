@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <set>
 
 #include "core/charts.h"
 #include "core/tet_edit.h"
@@ -60,6 +63,48 @@ TEST(TetEditor, MovesNodesAsFarAsTheTetsBear) {
   EXPECT_TRUE(editor.move(13, before + Vec3(0.2, 0, 0)));
   EXPECT_EQ(mesh.points[13], Vec3(before + Vec3(0.2, 0, 0)));
   EXPECT_NEAR(volume(mesh), 8, 1e-12);
+}
+
+TEST(TetEditor, WhatIsBetweenSolidsIsSplitToo) {
+  TetMesh mesh = tet_grid(2, 1, 1);
+  const auto middle = [&](int node) { return mesh.points[node][0] == 1; };
+  std::vector<int> between;
+  for (const Tet& t : mesh.tets) {
+    double x = 0;
+    for (int n : t) x += mesh.points[n][0] / 4;
+    mesh.tet_solid.push_back(x < 1 ? 0 : 1);
+    for (int skip = 0; x < 1 && skip < 4; ++skip) {
+      const Triangle facet{t[(skip + 1) % 4], t[(skip + 2) % 4], t[(skip + 3) % 4]};
+      if (std::all_of(facet.begin(), facet.end(), middle)) mesh.inner_triangles.push_back(facet);
+    }
+  }
+  ASSERT_EQ(mesh.inner_triangles.size(), 2u);
+  mesh.inner_face = {5, 5};
+  const Triangle first = mesh.inner_triangles[0];
+  mesh.inner_segments = {{first[0], first[1]}};
+  mesh.inner_segment_edge = {3};
+  TetEditor editor(mesh);
+  editor.split_edge(first[0], first[1], (mesh.points[first[0]] + mesh.points[first[1]]) / 2);
+  EXPECT_EQ(mesh.tet_solid.size(), mesh.tets.size());
+  EXPECT_EQ(mesh.inner_face, std::vector<int>(mesh.inner_triangles.size(), 5));
+  EXPECT_EQ(mesh.inner_segment_edge, (std::vector<int>{3, 3}));
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double x = 0;
+    for (int n : mesh.tets[t]) x += mesh.points[n][0] / 4;
+    EXPECT_EQ(mesh.tet_solid[t], x < 1 ? 0 : 1);
+  }
+  // Every facet between the solids is listed.
+  std::map<Triangle, std::set<int>> solids_at;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    for (int skip = 0; skip < 4; ++skip) {
+      Triangle facet{mesh.tets[t][(skip + 1) % 4], mesh.tets[t][(skip + 2) % 4], mesh.tets[t][(skip + 3) % 4]};
+      std::sort(facet.begin(), facet.end());
+      solids_at[facet].insert(mesh.tet_solid[t]);
+    }
+  }
+  std::size_t found = 0;
+  for (const auto& [facet, solids] : solids_at) found += solids.size() == 2;
+  EXPECT_EQ(found, mesh.inner_triangles.size());
 }
 
 }  // namespace

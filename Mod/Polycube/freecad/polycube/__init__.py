@@ -16,7 +16,7 @@ FreeCAD imports this package at start, so it imports nothing heavy.
 import os
 import re
 
-from .api import converge, create_fem_mesh, labels, mesh, options, prepare, refine, set_analysis, set_options, set_refinement, solve, update_fem_mesh
+from .api import compound_of, converge, create_fem_mesh, labels, mesh, options, prepare, refine, set_analysis, set_options, set_refinement, solve, update_fem_mesh
 from .errors import Cancelled, InvalidInput, NoMesher, PolycubeError, SolverFailed, StageFailed
 
 __all__ = [
@@ -26,6 +26,7 @@ __all__ = [
     "PolycubeError",
     "SolverFailed",
     "StageFailed",
+    "compound_of",
     "converge",
     "create_fem_mesh",
     "labels",

@@ -46,9 +46,9 @@ def options():
 
 
 def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=None, **more):
-    """All-hexahedral mesh of one solid.
+    """All-hexahedral mesh of one solid or several.
 
-    shape_or_object: Part.Shape, or a document object that has one, meshed where it stands in the 3D view.
+    shape_or_object: Part.Shape, or a document object that has one, meshed where it stands in the 3D view; or a list of these.
     size: edge length in mm or as a FreeCAD.Units.Quantity; None leaves it to the part, the bounding box's diagonal / 20 where nothing asks for less.
     order: 1 or 2. `more`: see options().
     progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
@@ -92,31 +92,50 @@ def _run(what, shape, given, progress, log, cancel):
 def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh", progress=None, log=None, cancel=None, only_object=False, **more):
     """Meshes the document object `part` and returns a new FEM mesh object in its document, in one undo step.
 
+    Of a list of objects a Part::Compound is made, which is the mesh object's part then.
     The mesh object joins `analysis` if one is given. `only_object`: it has no cells yet, so that refine() can ask for something before update_fem_mesh().
     Raises like mesh(); the document is then unchanged.
     """
     from . import objects, option_table
 
-    _check_object(part)
-    _check_analysis(analysis, part)
+    parts = list(part) if isinstance(part, (list, tuple)) else [part]
+    for one in parts or [None]:
+        _check_object(one)
+    part = parts if len(parts) > 1 else parts[0]
+    document = parts[0].Document
+    if any(one.Document != document for one in parts):
+        raise InvalidInput("the parts are in different documents")
+    _check_analysis(analysis, parts[0])
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
     if only_object:
         shapes.check_solid(shape)
-        with transaction(part.Document, "Hexahedral mesh from shape"):
-            obj = objects.make(part.Document, part, name)
+        with transaction(document, "Hexahedral mesh from shape"):
+            obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
             if analysis:
                 analysis.addObject(obj)
             option_table.write(obj, given)
         return obj
     meshed = shapes.signature(shape)
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
-    with transaction(part.Document, "Hexahedral mesh from shape"):
-        obj = objects.make(part.Document, part, name)
+    with transaction(document, "Hexahedral mesh from shape"):
+        obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
         if analysis:
             analysis.addObject(obj)
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
+
+
+@_recorded
+def compound_of(parts):
+    """A new Part::Compound of document objects, which stands where they stand. Raises InvalidInput where no compound can."""
+    document = parts[0].Document
+    compound = document.addObject("Part::Compound", "MeshedParts")
+    compound.Links = parts
+    compound.recompute()
+    if not shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))):
+        raise InvalidInput("the parts are in containers that move them; put them into one App::Part and take that")
+    return compound
 
 
 @_recorded

@@ -18,7 +18,7 @@ class MeshFromShape:
         return {
             "Pixmap": resources.icon("Polycube_MeshFromShape"),
             "MenuText": tr("Hexahedral mesh from shape"),
-            "ToolTip": tr("Creates a FEM mesh of hexahedra from the selected solid"),
+            "ToolTip": tr("Creates a FEM mesh of hexahedra from the selected solid, or from several"),
         }
 
     def IsActive(self):
@@ -27,13 +27,19 @@ class MeshFromShape:
     def Activated(self):
         from .task_panel import MeshPanel
 
-        part = self._selected()
+        chosen = self._selected()
         try:
-            shapes.check_solid(shapes.shape_of(part))
+            shapes.check_solid(shapes.shape_of(chosen))
+            part = chosen[0]
+            if len(chosen) > 1:
+                with api.transaction(part.Document, "Compound of the parts to mesh"):
+                    part = api.compound_of(chosen)
         except InvalidInput as error:
-            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Hexahedral mesh", "{}: {}".format(part.Label, error))
+            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Hexahedral mesh", "{}: {}".format(chosen[0].Label, error))
             return
         macro.begin()
+        if len(chosen) > 1:
+            macro.put_together(part, chosen)
         analysis = analyses.active(part.Document)
         # A second mesh of the part would stand in the first one.
         meshes = [mesh for mesh in objects.meshes_of(part) if objects.analysis_of(mesh) in (analysis, None)]
@@ -44,11 +50,12 @@ class MeshFromShape:
 
     @staticmethod
     def _selected():
-        """The one selected object that may have a solid, or None."""
+        """The selected objects, where all of them may have solids, or None."""
         if not FreeCAD.ActiveDocument:
             return None
         chosen = FreeCADGui.Selection.getSelection()
-        return chosen[0] if len(chosen) == 1 and shapes.has_shape(chosen[0]) and not chosen[0].isDerivedFrom("Fem::FemMeshObject") else None
+        fit = all(shapes.has_shape(obj) and not obj.isDerivedFrom("Fem::FemMeshObject") for obj in chosen)
+        return chosen if chosen and fit else None
 
 
 class Solve:

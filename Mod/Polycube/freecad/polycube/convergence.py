@@ -160,7 +160,7 @@ def _measure(quantity, mesh):
         values = {"displacement": lambda result: result.DisplacementLengths, "stress": lambda result: result.vonMises}[what]
         unit = {"displacement": "mm", "stress": "MPa"}[what]
         if isinstance(where, str):
-            if where not in ("Face{}".format(i + 1) for i in range(len(shapes.solid_object(objects.part_of(mesh)).Shape.Faces))):
+            if where not in ("Face{}".format(i + 1) for i in range(len(shapes.numbered_shape(objects.part_of(mesh)).Faces))):
                 raise LookupError("there is no {}".format(where))
             return lambda result: _mean(mesh, where, result, values(result)), "mean {} on {} / {}".format(what, where, unit)
         place = FreeCAD.Vector(*where)
@@ -180,7 +180,7 @@ def _at(mesh, place, result, values):
 def _mean(mesh, face, result, values):
     from .load_sets import GroupedMesh
 
-    shape = shapes.solid_object(objects.part_of(mesh)).Shape
+    shape = shapes.numbered_shape(objects.part_of(mesh))
     grouped = GroupedMesh(mesh, shape)
     weights = grouped.weights(grouped.elements(shape.getElement(face), "Face"))
     return sum(weights.get(node, 0.0) * value for node, value in zip(result.NodeNumbers, values)) / sum(weights.values())

@@ -25,6 +25,7 @@ _SLICE = 4000
 def build(result, breathe=None):
     """Fem.FemMesh with cells, boundary quads and edges in SMESH order, and groups Face3, Edge5, Vertex2, Solid1.
 
+    Of several solids also Solid1_Solid2 and Solid2_Solid1, the faces of each that touch the other, and Solid1_Face3 where they share Face3.
     Node i of the arrays is node i + 1. Cell i is element i + 1; quads follow the cells, edges follow the quads. `breathe(fraction)` is called again and
     again meanwhile, for a window that is not to freeze: 200,000 cells of second order take ten seconds.
     """
@@ -53,9 +54,9 @@ def build(result, breathe=None):
     add(quads, mesh.addFace, 1 + len(cells))
     add(segments, mesh.addEdge, 1 + len(cells) + len(quads))
     offsets = {"hexes": 1, "quads": 1 + len(cells), "segments": 1 + len(cells) + len(quads), "nodes": 1}
-    kinds = {"Face": ("Face", "quads"), "Edge": ("Edge", "segments"), "Vertex": ("Node", "nodes"), "Solid": ("Volume", "hexes")}
+    kinds = {"quads": "Face", "segments": "Edge", "hexes": "Volume", "nodes": "Node"}
     for name, parts in result.groups.items():
-        kind, what = kinds[name.rstrip("0123456789")]
+        kind, what = next((kind, what) for what, kind in kinds.items() if what in parts)
         add_group(mesh, name, kind, (parts[what] + offsets[what]).tolist())
     return mesh
 
@@ -75,7 +76,7 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
     nodes, as it does on curved edges that second order had to leave straight. `<Material>_Volumes`, where there are several materials, is for every FreeCAD.
     """
     warnings, node_groups, materials = [], [], []
-    solid = shapes.solid_object(part)
+    whole = shapes.numbered_shape(part)
     lost = {name for kind in result.report["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for member in analysis.Group:
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
@@ -88,22 +89,25 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
         if kind in ("Fem::MaterialCommon", "Fem::Material"):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
-            references = _references(member, solid)
+            references = _references(member, part)
             warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name in lost]
             references = [name for name in references if name in result.groups and not name.startswith("Solid")]
             nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
-            if references and set(nodes) - _found(mesh, solid, references):
+            if references and set(nodes) - _found(mesh, whole, references):
                 node_groups.append((member.Name + "_Nodes", nodes))
             for load_kind, load in _FACE_LOADS.items():
                 if member.isDerivedFrom(load_kind) and not groups_are_asked:
-                    warnings += _lost_load(mesh, result, member, solid, references, load)
+                    warnings += _lost_load(mesh, result, member, whole, references, load)
     # FreeCAD takes the first group whose name starts with the constraint's name and "_": the shorter name has to come first.
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
         add_group(mesh, name, "Node", nodes)
     if len(materials) > 1:
+        referred = {material.Name: {number for obj, names in material.References for number in _solids_of(part, obj, names)} for material in materials}
+        rest = set(result.hex_solid.tolist()).difference(*referred.values())
         for material in sorted(materials, key=lambda member: (len(member.Name), member.Name)):
-            if any(obj in (part, solid) for obj, _ in material.References):
-                add_group(mesh, material.Name + "_Volumes", "Volume", list(range(1, len(result.hexes) + 1)))
+            # One that refers to nothing is that of all others.
+            solids = referred[material.Name] if material.References else rest
+            add_group(mesh, material.Name + "_Volumes", "Volume", [cell for cell, solid in enumerate(result.hex_solid.tolist(), 1) if solid in solids])
     return warnings
 
 
@@ -112,43 +116,49 @@ def special_kind(member):
     return _SPECIAL.get(getattr(getattr(member, "Proxy", None), "Type", "")) or _SPECIAL.get(member.TypeId)
 
 
-def _lost_load(mesh, result, member, solid, references, load):
+def _solids_of(part, obj, names):
+    """Numbers of the solids that references of a material mean; all for the part itself, which may be a container."""
+    if obj == part and not hasattr(obj, "Shape"):
+        return range(1, len(shapes.numbered_shape(part).Solids) + 1)
+    return shapes.solids_in(part, obj, names)
+
+
+def _lost_load(mesh, result, member, whole, references, load):
     """FreeCAD finds the mesh faces that carry a load by geometry alone, groups do not help it."""
     for name in references:
         if name.startswith("Face"):
-            found, there = len(mesh.getFacesByFace(solid.Shape.getElement(name))), len(result.groups[name]["quads"])
+            found, there = len(mesh.getFacesByFace(whole.getElement(name))), len(result.groups[name]["quads"])
             if found < there:
                 yield "{}: FreeCAD finds {} of the {} mesh faces on {}, {} the {} gets lost".format(
                     member.Label, found, there, name, "part of" if found else "all of", load
                 )
 
 
-def _references(member, solid):
-    """Names of the solid's entities that a constraint refers to. FreeCAD's writers know no other way than by the object that has the shape itself."""
-    return [name for obj, names in getattr(member, "References", []) if obj == solid for name in names if name]
+def _references(member, part):
+    """Names, as the mesh has them, of the part's entities that a constraint refers to."""
+    return [name for obj, names in getattr(member, "References", []) for name in shapes.names_in(part, obj, names)]
 
 
 def exists(shape, name):
     """Whether the shape has the entity, Face3 or the like."""
     kind = name.rstrip("0123456789")
-    entities = {"Face": "Faces", "Edge": "Edges", "Vertex": "Vertexes", "Solid": "Solids"}.get(kind)
-    return bool(entities) and 1 <= int(name[len(kind) :] or 0) <= len(getattr(shape, entities))
+    return 1 <= int(name[len(kind) :] or 0) <= len(shapes.entities(shape, kind))
 
 
 def constrained_faces(part, analysis):
     """Names of the part's faces that carry constraints of the analysis, or have an edge or vertex that does; no mesh may do without them."""
-    solid = shapes.solid_object(part)
-    shape = getattr(solid, "Shape", None)
-    if not shape or not analysis:
+    inside = shapes.solid_objects(part)
+    if not analysis or not inside or not all(getattr(member, "Shape", None) for member in inside):
         return []
+    shape = shapes.numbered_shape(part)
     faces = shape.Faces
     found = set()
     for member in analysis.Group:
         if not member.isDerivedFrom("Fem::Constraint"):
             continue
-        for name in _references(member, solid):
+        for name in _references(member, part):
             if not exists(shape, name):
-                FreeCAD.Console.PrintWarning("{}: {} has no {} any more\n".format(member.Label, solid.Label, name))
+                FreeCAD.Console.PrintWarning("{}: {} has no {} any more\n".format(member.Label, inside[0].Label, name))
             elif name.startswith("Face"):
                 found.add(int(name[4:]))
             elif not name.startswith("Solid"):
@@ -157,7 +167,7 @@ def constrained_faces(part, analysis):
     return ["Face{}".format(number) for number in sorted(found)]
 
 
-def _found(mesh, solid, references):
+def _found(mesh, whole, references):
     """Node numbers that FreeCAD's search finds on these entities: it looks where they are in their container, not where that stands."""
     search = {"Face": mesh.getNodesByFace, "Edge": mesh.getNodesByEdge, "Vertex": mesh.getNodesByVertex}
-    return {node for name in references for node in search[name.rstrip("0123456789")](solid.Shape.getElement(name))}
+    return {node for name in references for node in search[name.rstrip("0123456789")](whole.getElement(name))}

@@ -62,9 +62,7 @@ class GroupedMesh:
     def elements(self, shape, kind):
         """Numbers of the mesh's elements (of a vertex: nodes) on a face, edge, vertex or solid of the part; empty where the mesh has no group for it."""
         name = shape.ShapeType
-        numbered = list(enumerate(self._shapes.get(name, ()), 1))
-        same = [number for number, own in numbered if own.isSame(shape)] or [number for number, own in numbered if own.isPartner(shape)]
-        group = self._elements.get((name + str(same[0]), kind)) if same else None
+        group = self._elements.get((name + str(shapes.number_of(self._shapes.get(name, ()), shape)), kind))
         return () if group is None else self._mesh.getGroupElements(group)
 
     def _nodes(self, shape, kind, search):

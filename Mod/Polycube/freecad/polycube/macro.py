@@ -36,6 +36,11 @@ def created(obj, options):
     _call("create_fem_mesh", part_of(obj), options, obj)
 
 
+def put_together(compound, parts):
+    """A compound of parts was made, to be meshed."""
+    record("polycube.compound_of([{}])".format(", ".join(map(name, parts))), compound)
+
+
 def updated(obj, before, now):
     """A mesh object was meshed anew; `before` and `now`: its options, without defaults."""
     _call("update_fem_mesh", obj, changed(before, now), obj)

@@ -123,7 +123,7 @@ def _grouped_shape(obj):
     if not shape_is_meshed(obj):
         FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
         return None
-    return shapes.solid_object(part_of(obj)).Shape
+    return shapes.numbered_shape(part_of(obj))
 
 
 class PolycubeMesh(Stateless):

@@ -12,6 +12,7 @@ class MeshResult:
     nodes: object  #: (n, 3) float64: corners first, then mid-edge nodes
     hexes: object  #: (m, 8 or 20) int32
     hex_block: object  #: (m,) int32, block of the polycuboid that the cell is part of; of the coarsest mesh the cell itself
+    hex_solid: object  #: (m,) int32, number of each cell's solid: 1 is Solid1
     quads: object  #: (q, 4 or 8) int32, all boundary faces, outward
     quad_face: object  #: (q,) int32, CAD face of each quad: 3 is Face3
     quad_hex: object  #: (q, 2) int32, cell of each quad and the cell's face, 0 to 5 as Abaqus' S1 to S6
@@ -21,7 +22,7 @@ class MeshResult:
     edge_ratio: object  #: (m,) float64, longest over shortest edge: 1 for a cube
     skew: object  #: (m,) float64, Verdict's: 0 for right angles, at most 1
     warpage: object  #: (m,) float64, Verdict's, of the most warped side: 0 for plane sides, at most 2
-    groups: dict = field(default_factory=dict)  #: "Face3" -> {"nodes": (k,) int32, "quads": (j,) int32}, likewise Edge, Vertex, Solid
+    groups: dict = field(default_factory=dict)  #: "Face3" -> {"nodes": (k,) int32, "quads": (j,) int32}, likewise Edge, Vertex, Solid; of several solids Solid1_Solid2 too
     report: dict = field(default_factory=dict)  #: stages, seconds, counts, quality, worst cells, CAD capture, warnings, options, version
 
     @property

@@ -1,4 +1,4 @@
-"""The shape of a document object: where it stands, is it one solid, and is it still the one that was meshed?"""
+"""The shape of a document object, or of several: where it stands, has it solids, what are its entities called, and is it still the one that was meshed?"""
 
 from .errors import InvalidInput
 
@@ -8,10 +8,16 @@ RELATIVE_TOLERANCE = 1e-7
 def shape_of(thing, beside=None):
     """The Part.Shape of a shape, or of a document object as it stands in the 3D view, whatever containers and links it is in. Raises InvalidInput.
 
-    With `beside`, a document object, the coordinates are those of the container that this one is in: what is made of the shape stands right there.
+    Of a list of these it is a compound. With `beside`, a document object, the coordinates are those of the container that this one is in: what is made of the
+    shape stands right there.
     """
     import Part
 
+    if isinstance(thing, (list, tuple)):
+        if not thing:
+            raise InvalidInput("the list of parts is empty")
+        found = [shape_of(one, beside) for one in thing]
+        return found[0] if len(found) == 1 else Part.makeCompound(found)
     if not hasattr(thing, "Document"):
         if not isinstance(thing, Part.Shape):
             raise InvalidInput("{} has no shape".format(type(thing).__name__))
@@ -81,8 +87,63 @@ def solid_object(part):
     return inside[0] if len(inside) == 1 else part
 
 
+def numbered_shape(part):
+    """The shape whose entities the names Face1, Solid1 ... of a mesh of `part` number, in the coordinates of the objects: of several objects a compound."""
+    import Part
+
+    inside = solid_objects(part)
+    return inside[0].Shape if len(inside) == 1 else Part.makeCompound([member.Shape for member in inside])
+
+
+def number_of(entities, shape):
+    """The number of a face, edge, vertex or solid among those of a part, from 1, or 0: itself, a copy, or of solids one of the same volume at the same place."""
+    numbered = list(enumerate(entities, 1))
+    same = [number for number, own in numbered if own.isSame(shape)] or [number for number, own in numbered if own.isPartner(shape)]
+    if not same and shape.ShapeType == "Solid":
+        same = [number for number, own in numbered if _coincide(own, shape)]
+    return same[0] if same else 0
+
+
+def _coincide(solid, other):
+    reach = RELATIVE_TOLERANCE * other.BoundBox.DiagonalLength
+    return abs(solid.Volume - other.Volume) <= reach**3 + RELATIVE_TOLERANCE * other.Volume and solid.CenterOfMass.isEqual(other.CenterOfMass, reach)
+
+
+def entities(shape, kind):
+    """The shape's faces, edges, vertices or solids, by the word in their names; nothing by other words."""
+    kinds = {"Face": "Faces", "Edge": "Edges", "Vertex": "Vertexes", "Solid": "Solids"}
+    return getattr(shape, kinds[kind]) if kind in kinds else ()
+
+
+def names_in(part, obj, names):
+    """What entities of an object, Face3 or the like, are called in a mesh of `part`; those that the part does not have are left out."""
+    if obj == solid_object(part):
+        return [name for name in names if name]
+    whole, shape, found = numbered_shape(part), getattr(obj, "Shape", None), []
+    for name in names if shape else ():
+        kind = name.rstrip("0123456789")
+        own = entities(shape, kind)
+        number = int(name[len(kind) :] or 0)
+        if 1 <= number <= len(own):
+            same = number_of(entities(whole, kind), own[number - 1])
+            found += ["{}{}".format(kind, same)] if same else []
+    return found
+
+
+def solids_in(part, obj, names):
+    """Numbers of the solids in a mesh of `part` that references to an object mean: Solid1 ..., or all of the object where the name is empty."""
+    shape = getattr(obj, "Shape", None)
+    if not shape or shape.isNull():
+        return []
+    whole, found = entities(numbered_shape(part), "Solid"), set()
+    for name in names or ("",):
+        wanted = [shape.Solids[int(name[5:]) - 1]] if name.startswith("Solid") else (shape.getElement(name) if name else shape).Solids
+        found.update(number_of(whole, solid) for solid in wanted)
+    return sorted(found - {0})
+
+
 def solid_objects(part):
-    """The objects with solids inside a container, the part itself if it is none. What another of them was made of, and is hidden, does not count."""
+    """The objects with solids inside a container or a list, the part itself if it is none. What another of them was made of, and is hidden, does not count."""
     import Part
 
     members = _members(part)
@@ -94,7 +155,9 @@ def solid_objects(part):
 
 
 def _members(obj):
-    """What is inside a container that has no shape of its own; None of other objects."""
+    """What is inside a list, or a container that has no shape of its own; None of other objects."""
+    if isinstance(obj, (list, tuple)):
+        return obj
     if obj.isDerivedFrom("App::Part") or obj.isDerivedFrom("App::DocumentObjectGroup"):
         return obj.Group
     return _elements(obj) or None
@@ -106,18 +169,17 @@ def _elements(obj):
 
 
 def check_solid(shape):
-    """Raises InvalidInput unless the shape has one valid solid with a volume, or faces only, which the engine sews. It checks again and more closely."""
+    """Raises InvalidInput unless the shape has valid solids with a volume, or faces only, which the engine sews. It checks again and more closely."""
     if shape.isNull() or not shape.Faces:
         raise InvalidInput("the shape is empty")
     if not shape.Solids:
         return
-    if len(shape.Solids) > 1:
-        raise InvalidInput("the shape has {} solids; mesh one solid at a time".format(len(shape.Solids)))
-    (solid,) = shape.Solids
-    if not solid.isValid():
-        raise InvalidInput("the solid is not valid; Part > Check geometry shows why")
-    if not solid.Volume > 1e-12 * solid.BoundBox.DiagonalLength**3:
-        raise InvalidInput("the solid has no volume")
+    for number, solid in enumerate(shape.Solids, 1):
+        name = "the solid" if len(shape.Solids) == 1 else "Solid{}".format(number)
+        if not solid.isValid():
+            raise InvalidInput("{} is not valid; Part > Check geometry shows why".format(name))
+        if not solid.Volume > 1e-12 * solid.BoundBox.DiagonalLength**3:
+            raise InvalidInput("{} has no volume".format(name))
 
 
 def signature(shape):

@@ -233,12 +233,12 @@ def _check_references(analysis):
 
 def _check_captured(analysis, obj):
     """Raises InvalidInput where a constraint is on faces, edges or vertices that the mesh object does not have as they are: part of the load would be lost."""
-    part = shapes.solid_object(objects.part_of(obj))
+    part = objects.part_of(obj)
     missing = {name for kind in json.loads(obj.Report)["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for constraint in analysis.Group:
         if constraint.isDerivedFrom("Fem::Constraint"):
             for owner, names in getattr(constraint, "References", []):
-                found = missing.intersection(names) if owner == part else ()
+                found = missing.intersection(shapes.names_in(part, owner, names)) if missing else ()
                 if found:
                     raise InvalidInput("{}: the mesh does not capture {}; make it again".format(constraint.Label, ", ".join(sorted(found))))
 

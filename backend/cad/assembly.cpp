@@ -1,0 +1,183 @@
+#include "cad/assembly.h"
+
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp_Explorer.hxx>
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "cad/fuse.h"
+#include "cad/occt.h"
+#include "cad/shape.h"
+#include "core/error.h"
+
+namespace polycube {
+namespace {
+
+// Of the smaller solid's volume: a common part below this is rounding in the file, not an overlap (guess).
+constexpr double kOverlap = 1e-6;
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+double area_of(const TopoDS_Shape& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  return properties.Mass();
+}
+
+double volume_of(const TopoDS_Shape& solid) {
+  GProp_GProps properties;
+  BRepGProp::VolumeProperties(solid, properties);
+  return properties.Mass();
+}
+
+void refuse_overlaps(const Assembly& assembly, GeneralFuse& fuse) {
+  TopTools_IndexedMapOfShape pieces;
+  std::vector<int> owner;
+  for (int s = 0; s < static_cast<int>(assembly.solids.size()); ++s) {
+    for (const TopoDS_Shape& piece : fuse.images(solid_in(assembly.solids[s].shape().shape))) {
+      const int at = pieces.Add(piece);
+      if (at > static_cast<int>(owner.size())) {
+        owner.push_back(s);
+        continue;
+      }
+      const int other = owner[static_cast<std::size_t>(at) - 1];
+      const double common = volume_of(piece);
+      if (common > kOverlap * std::min(assembly.solids[s].volume(), assembly.solids[other].volume()))
+        throw InvalidInput(assembly.name(other + 1) + " and " + assembly.name(s + 1) + " overlap: they have " + number_text(common) + " mm^3 in common");
+    }
+  }
+}
+
+std::vector<Interface> find_interfaces(const std::vector<CadModel>& solids, GeneralFuse& fuse) {
+  TopTools_IndexedMapOfShape pieces;
+  std::vector<std::vector<std::array<int, 2>>> uses;  // per piece: solid and CAD face
+  for (int s = 0; s < static_cast<int>(solids.size()); ++s) {
+    for (const int f : solids[s].faces()) {
+      for (const TopoDS_Shape& piece : fuse.images(solids[s].shape().face(f).face)) {
+        const auto at = static_cast<std::size_t>(pieces.Add(piece));
+        uses.resize(std::max(uses.size(), at));
+        uses[at - 1].push_back({s + 1, f});
+      }
+    }
+  }
+  std::map<std::array<int, 2>, Interface> found;
+  for (std::size_t p = 0; p < uses.size(); ++p) {
+    for (std::size_t i = 0; i < uses[p].size(); ++i) {
+      for (std::size_t k = i + 1; k < uses[p].size(); ++k) {
+        const auto& [a, face_a] = uses[p][i];
+        const auto& [b, face_b] = uses[p][k];
+        if (a == b) continue;
+        Interface& interface = found[{a, b}];
+        interface.solids = {a, b};
+        interface.faces[0].push_back(face_a);
+        interface.faces[1].push_back(face_b);
+        interface.area += area_of(pieces(static_cast<int>(p) + 1));
+      }
+    }
+  }
+  std::vector<Interface> result;
+  for (auto& [pair, interface] : found) {
+    for (std::vector<int>& faces : interface.faces) {
+      std::sort(faces.begin(), faces.end());
+      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    }
+    result.push_back(std::move(interface));
+  }
+  return result;
+}
+
+/// Whether the box of a solid comes near that of another at all.
+bool may_touch(const std::vector<CadModel>& solids) {
+  for (std::size_t a = 0; a < solids.size(); ++a)
+    for (std::size_t b = a + 1; b < solids.size(); ++b) {
+      const double reach = 1e-6 * std::max(solids[a].diagonal(), solids[b].diagonal());
+      if (solids[a].shape().box.exteriorDistance(solids[b].shape().box) <= reach) return true;
+    }
+  return false;
+}
+
+void find_touching(Assembly& assembly, const Monitor& monitor) {
+  if (!may_touch(assembly.solids)) return;
+  try {
+    catching_faults([&] {
+      GeneralFuse fuse(assembly.solids, monitor);
+      refuse_overlaps(assembly, fuse);
+      assembly.interfaces = find_interfaces(assembly.solids, fuse);
+    });
+  } catch (const Standard_Failure& failure) {
+    monitor.check();
+    throw InvalidInput("OpenCASCADE cannot tell where the solids touch: " + std::string(failure.GetMessageString()));
+  }
+}
+
+std::vector<int> all_numbers(const std::vector<CadModel>& solids, const std::vector<int>& (CadModel::*numbers)() const) {
+  std::set<int> all;
+  for (const CadModel& solid : solids) all.insert((solid.*numbers)().begin(), (solid.*numbers)().end());
+  return {all.begin(), all.end()};
+}
+
+}  // namespace
+
+Assembly Assembly::of(const FileShape& read, const ReadOptions& options, const Monitor& monitor) {
+  const FoundSolids found = find_solids(read, options.sew, monitor);
+  Assembly assembly;
+  const bool one = found.solids.size() == 1;
+  for (const FoundSolid& solid : found.solids) {
+    std::string& label = assembly.labels.emplace_back();
+    for (const auto& [shape, text] : read.labels)
+      if (shape.IsSame(solid_in(solid.solid))) label = text;
+    const int number = static_cast<int>(assembly.labels.size());
+    try {
+      assembly.solids.push_back(CadModel(described(solid, one ? read.warnings : std::vector<std::string>(), monitor)));
+    } catch (const InvalidInput& error) {
+      throw one ? error : InvalidInput(assembly.name(number) + ": " + error.what());
+    }
+  }
+  if (one) return assembly;
+  assembly.warnings = read.warnings;
+  assembly.warnings.insert(assembly.warnings.end(), found.warnings.begin(), found.warnings.end());
+  find_touching(assembly, monitor);
+  return assembly;
+}
+
+Assembly Assembly::read(const std::string& path, const ReadOptions& options, const Monitor& monitor) {
+  const FileShape shape = read_shape(path, options, monitor);
+  try {
+    return of(shape, options, monitor);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(path + ": " + error.what());
+  }
+}
+
+Assembly Assembly::from_brep(const std::string& text, const ReadOptions& options, const Monitor& monitor) {
+  return of(parse_brep(text, monitor), options, monitor);
+}
+
+std::string Assembly::name(int solid) const {
+  const std::string& label = labels.at(static_cast<std::size_t>(solid) - 1);
+  return polycube::name({3, solid}) + (label.empty() ? "" : " \"" + label + "\"");
+}
+
+double Assembly::diagonal() const {
+  Eigen::AlignedBox3d box;
+  for (const CadModel& solid : solids) box.extend(solid.shape().box);
+  return box.diagonal().norm();
+}
+
+double Assembly::volume() const {
+  double sum = 0;
+  for (const CadModel& solid : solids) sum += solid.volume();
+  return sum;
+}
+
+std::vector<int> Assembly::faces() const { return all_numbers(solids, &CadModel::faces); }
+std::vector<int> Assembly::edges() const { return all_numbers(solids, &CadModel::edges); }
+
+}  // namespace polycube

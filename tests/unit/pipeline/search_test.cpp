@@ -125,6 +125,17 @@ TEST(Search, TheBestOfPoorMeshesWins) {
   EXPECT_EQ(s.stages.asked, (Names{"a", "b", "c"}));
 }
 
+TEST(Search, APlanForPoorMeshesIsForThoseAlone) {
+  for (const bool poor : {true, false}) {
+    Search s;
+    s.plans[1].for_poor = true;
+    const double least = poor ? 0.08 : 0.15;
+    s.stages.outcomes = {{"a", mesh({0, 0, least, least})}, {"b", mesh({0, 0, 0.17, 0.17})}, {"c", mesh({0, 0, 0.06, 0.06})}};
+    EXPECT_EQ(s.run().plan.name, poor ? "b" : "a");
+    EXPECT_EQ(s.stages.asked, poor ? (Names{"a", "b", "c"}) : (Names{"a", "c"}));
+  }
+}
+
 TEST(Search, AMeshWithAWorseCellMayKeepMoreEdges) {
   EXPECT_TRUE(better({0, 0, 0.1, 0.1}, {1, 0, 0.5, 0.5}));
   EXPECT_TRUE(better({0, 0, 0.3, 0.3}, {0, 0, 0.2, 0.2}));

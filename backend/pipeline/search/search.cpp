@@ -145,7 +145,9 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done, b
     queue.push_back(a.plan);
     queue.back().may_wait = false;
   }
-  const bool poor = std::none_of(done.begin(), done.end(), [](const Attempt& a) { return a.outcome.score && a.outcome.score->least >= kSqueezedScaledJacobian; });
+  const bool poor = std::none_of(done.begin(), done.end(), [](const Attempt& a) {
+    return a.outcome.score && a.outcome.score->complete() && a.outcome.score->least >= kSqueezedScaledJacobian;
+  });
   while (at < queue.size() && (without_tets(done, queue[at]) || (queue[at].for_poor && !poor))) ++at;
   if (hurry && !mesh) {
     at = queue.size();

@@ -126,11 +126,11 @@ TEST(Search, TheBestOfPoorMeshesWins) {
 }
 
 TEST(Search, APlanForPoorMeshesIsForThoseAlone) {
-  for (const bool poor : {true, false}) {
+  constexpr Score kSqueezed{0, 0, 0.08, 0.08}, kIncomplete{2, 0, 0.3, 0.3}, kFair{0, 0, 0.15, 0.15};
+  for (const auto& [first, poor] : {std::pair(kSqueezed, true), std::pair(kIncomplete, true), std::pair(kFair, false)}) {
     Search s;
     s.plans[1].for_poor = true;
-    const double least = poor ? 0.08 : 0.15;
-    s.stages.outcomes = {{"a", mesh({0, 0, least, least})}, {"b", mesh({0, 0, 0.17, 0.17})}, {"c", mesh({0, 0, 0.06, 0.06})}};
+    s.stages.outcomes = {{"a", mesh(first)}, {"b", mesh({0, 0, 0.17, 0.17})}, {"c", mesh({0, 0, 0.06, 0.06})}};
     EXPECT_EQ(s.run().plan.name, poor ? "b" : "a");
     EXPECT_EQ(s.stages.asked, poor ? (Names{"a", "b", "c"}) : (Names{"a", "c"}));
   }

@@ -92,6 +92,12 @@ void collect_links(const Tree& property, std::set<std::string>& links) {
   }
 }
 
+/// Of an object that FreeCAD could not compute, or has not.
+class NoShape : public InvalidInput {
+ public:
+  using InvalidInput::InvalidInput;
+};
+
 class Document {
  public:
   explicit Document(const std::string& path) : path_(path), archive_(path) {
@@ -130,14 +136,24 @@ class Document {
       return together(chosen, monitor);
     }
     const std::vector<const DocumentObject*> candidates = finals("", monitor);
-    if (candidates.empty()) throw InvalidInput(path_ + (unreadable_.empty() ? " has no object with a shape" : ": " + unreadable_));
+    if (candidates.empty()) throw InvalidInput(unreadable_.empty() ? path_ + " has no object with a shape" : unreadable_.back().reason);
     if (candidates.size() == 1) return together(candidates, monitor);
-    std::string names;
-    for (const DocumentObject* object : candidates) names += (names.empty() ? "" : ", ") + object->title();
-    throw InvalidInput(path_ + " has several solids: choose one with --object (" + names + "), or some as --object A,B");
+    throw InvalidInput(path_ + " has several solids: choose one with --object (" + titles(candidates) + "), or some as --object A,B");
   }
 
  private:
+  struct Unreadable {
+    const DocumentObject* object;
+    std::string reason;
+    bool empty;
+  };
+
+  static std::string titles(const std::vector<const DocumentObject*>& objects) {
+    std::string text;
+    for (const DocumentObject* object : objects) text += (text.empty() ? "" : ", ") + object->title();
+    return text;
+  }
+
   static DocumentObject read_object(const Tree& node) {
     DocumentObject object;
     object.name = attribute(node, "name");
@@ -177,8 +193,10 @@ class Document {
       for (TopExp_Explorer it(read.shape, TopAbs_SOLID); it.More(); it.Next())
         read.labels.emplace_back(it.Current(), object->label.empty() ? object->name : object->label);
     }
+    for (const std::string& line : left_out_) shapes.front().warnings.push_back(line);
     if (shapes.size() == 1) return shapes.front();
     FileShape all;
+    all.warnings = shapes.front().warnings;
     TopoDS_Compound compound;
     BRep_Builder().MakeCompound(compound);
     for (FileShape& read : shapes) {
@@ -228,7 +246,8 @@ class Document {
   TopoDS_Shape stored_shape(const DocumentObject& object, const Monitor& monitor) {
     if (std::filesystem::path(object.shape_file).extension() != ".brp")
       throw InvalidInput("object " + object.name + ": its shape is stored in binary; save the document with text shapes, or export STEP");
-    return parse_brep(archive_.read(object.shape_file), monitor).shape;
+    const std::string text = archive_.read(object.shape_file);
+    return text.empty() ? TopoDS_Shape() : parse_brep(text, monitor).shape;
   }
 
   FileShape shape_of(const DocumentObject& object, const Monitor& monitor) {
@@ -237,11 +256,13 @@ class Document {
       gp_Trsf place = place_of(object);
       if (object.is_body() && !TopExp_Explorer(shape, TopAbs_FACE).More()) {
         const DocumentObject* tip = find(object.tip);
-        if (!tip || tip->shape_file.empty()) throw InvalidInput("the body has no tip with a shape");
-        shape = stored_shape(*tip, monitor);
-        place = place_of(*tip);
+        shape = tip && !tip->shape_file.empty() ? stored_shape(*tip, monitor) : TopoDS_Shape();
+        if (tip) place = place_of(*tip);
       }
+      if (shape.IsNull()) throw NoShape(path_ + ": " + object.title() + " has no shape: recompute it in FreeCAD");
       return {shape.Moved(TopLoc_Location(place)), 0, {}};
+    } catch (const NoShape&) {
+      throw;
     } catch (const InvalidInput& error) {
       throw InvalidInput(path_ + ": " + object.title() + ": " + error.what());
     }
@@ -264,8 +285,10 @@ class Document {
         } else {
           continue;
         }
+      } catch (const NoShape& error) {
+        unreadable_.push_back({&object, error.what(), true});
       } catch (const InvalidInput& error) {
-        unreadable_ = error.what();
+        unreadable_.push_back({&object, error.what(), false});
       }
     }
     std::vector<const DocumentObject*>& found = solids.empty() ? surfaces : solids;
@@ -274,7 +297,18 @@ class Document {
       for (const std::string& name : built_from(*object)) used.insert(name);
     }
     std::erase_if(found, [&](const DocumentObject* object) { return used.contains(object->name); });
+    note_unreadable(found);
     return found;
+  }
+
+  /// An object whose shape is damaged, or that was to be made of one found and is not there, may be the part: it is not passed over without a word.
+  void note_unreadable(const std::vector<const DocumentObject*>& found) {
+    for (const Unreadable& u : unreadable_) {
+      const std::set<std::string> sources = built_from(*u.object);
+      const bool replaced = std::any_of(found.begin(), found.end(), [&](const DocumentObject* object) { return sources.contains(object->name); });
+      if (!found.empty() && (!u.empty || replaced)) throw InvalidInput(u.reason + "; another can be chosen with --object (" + titles(found) + ")");
+      left_out_.push_back("left out: " + u.object->title() + ", which has no shape");
+    }
   }
 
   /// Names of the objects that this one, or a step of this body, links to; a step of another body stands for that body.
@@ -294,7 +328,8 @@ class Document {
   Archive archive_;
   std::vector<DocumentObject> objects_;
   std::map<std::string, std::size_t> index_;
-  std::string unreadable_;
+  std::vector<Unreadable> unreadable_;
+  std::vector<std::string> left_out_;  ///< warnings
 };
 
 }  // namespace

@@ -240,6 +240,35 @@ class Documents(Reading):
         with self.assertRaises(_polycube.InvalidInput):
             _polycube.labels(brep=box().exportBrepToString(), object="Second")
 
+    def test_what_cannot_be_read_is_not_passed_over(self):
+        def build(document):
+            self.body(document, "First")
+            self.body(document, "Second", (6, 4, 4))
+
+        path = self.save(build)
+        with zipfile.ZipFile(path) as archive:
+            files = {name: archive.read(name) for name in archive.namelist()}
+        shape = re.search(r'<Object name="First".*?<Property name="Shape".*?file="(.*?)"', files["Document.xml"].decode(), re.S).group(1)
+        tip = re.search(r'<Object name="FirstChamfer".*?<Property name="Shape".*?file="(.*?)"', files["Document.xml"].decode(), re.S).group(1)
+        for damage, said in ((lambda text: text[: len(text) // 2], "First: .*damaged.*--object .Second"), (lambda text: b"", None)):
+            with self.subTest(said=said):
+                with zipfile.ZipFile(self.path("damaged.FCStd"), "w") as archive:
+                    for name, text in files.items():
+                        archive.writestr(name, damage(text) if name in (shape, tip) else text)
+                if said:
+                    self.assertRegex(self.refuses(self.path("damaged.FCStd")), said)
+                else:  # FreeCAD writes that of a body that is empty
+                    self.assertAlmostEqual(self.extents(self.path("damaged.FCStd"))[0][3], 6, delta=1e-6)
+
+    def test_a_feature_that_failed_does_not_leave_what_it_was_made_of(self):
+        def build(document):
+            block = document.addObject("Part::Box", "Block")
+            failed = document.addObject("Part::Fillet", "Rounded")
+            failed.Base = block
+            failed.Edges = [(1, 100.0, 100.0)]
+
+        self.assertRegex(self.refuses(self.save(build)), "Rounded has no shape.*--object .Block")
+
     def test_what_has_no_solid_does_not_use_one_up(self):
         def build(document):
             block = document.addObject("Part::Box", "Block")

@@ -76,10 +76,10 @@ class Cli(FolderTest):
             file.write("hello\n")
         with open(self.path("text.FCStd"), "w") as file:
             file.write("hello\n")
-        far = Part.makeBox(1, 1, 1, VECTOR(5, 0, 0))
+        overlapping = Part.makeBox(4, 4, 4, VECTOR(1, 1, 1))
         shapes = {
             "shell.brep": Part.makeShell(box().Faces[:5]),
-            "two.brep": Part.Compound([box(), far.translated(VECTOR(20, 0, 0))]),
+            "overlapping.brep": Part.Compound([box(), overlapping]),
             "face.brep": box().Faces[0],
             "edge.brep": box().Edges[0],
         }

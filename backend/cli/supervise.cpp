@@ -58,6 +58,8 @@ class SharedNote {
 [[noreturn]] void be_child(const std::function<int(StageNote&)>& work, StageNote& note, pid_t parent, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for the mesh of a parent that was killed
   if (getppid() != parent || g_stops > 0) _exit(kStopped);
+  // What ends the engine alone, such as its own limit of processor time, is not asked of the command.
+  for (const int end : {SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM}) std::signal(end, SIG_DFL);
   rlimit no_core{};
   getrlimit(RLIMIT_CORE, &no_core);
   no_core.rlim_cur = 0;

@@ -79,7 +79,18 @@ class Narrow(PanelTest):
         self.check("English")
 
     def test_nothing_is_cut_off_in_german(self):
-        self.addCleanup(FreeCADGui.setLocale, FreeCADGui.getLocale())
+        general = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/General")
+        before = general.GetString("Language", "")
+
+        def english_again():
+            # FreeCAD keeps the language for the next start; of a user without a choice it makes none.
+            FreeCADGui.setLocale("English")
+            if before:
+                general.SetString("Language", before)
+            else:
+                general.RemString("Language")
+
+        self.addCleanup(english_again)
         FreeCADGui.setLocale("German")
         self.check("German")
         self.assertEqual(fields.title({"name": "size"}), "Elementgröße")

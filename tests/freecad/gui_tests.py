@@ -422,11 +422,11 @@ class InAContainer(GuiTest):
 
 
 class RefusedShapes(GuiTest):
-    def test_two_solids_open_a_message_and_no_panel(self):
-        two = self.document.addObject("Part::Feature", "Two")
-        two.Shape = Part.makeCompound([Part.makeBox(1, 1, 1), Part.makeBox(1, 1, 1, FreeCAD.Vector(3, 0, 0))])
+    def test_what_has_no_faces_opens_a_message_and_no_panel(self):
+        wire = self.document.addObject("Part::Feature", "Wire")
+        wire.Shape = Part.makeLine(FreeCAD.Vector(0, 0, 0), FreeCAD.Vector(1, 0, 0))
         FreeCADGui.Selection.clearSelection()
-        FreeCADGui.Selection.addSelection(two)
+        FreeCADGui.Selection.addSelection(wire)
         texts = []
 
         def close():
@@ -440,5 +440,5 @@ class RefusedShapes(GuiTest):
         QtCore.QTimer.singleShot(100, close)
         FreeCADGui.runCommand(commands.MeshFromShape.Name)
         self.assertEqual(len(texts), 1)
-        self.assertIn("2 solids", texts[0])
+        self.assertIn("the shape is empty", texts[0])
         self.assertFalse(FreeCADGui.Control.activeDialog())

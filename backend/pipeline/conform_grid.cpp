@@ -10,15 +10,10 @@
 
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/sorted.h"
 
 namespace polycube {
 namespace {
-
-template <class Row>
-Row sorted(Row row) {
-  std::sort(row.begin(), row.end());
-  return row;
-}
 
 std::vector<int> faces_of(const ConformalModel& model) {
   std::vector<int> faces;

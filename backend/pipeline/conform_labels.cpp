@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/charts.h"
+#include "core/sorted.h"
 #include "label/choice.h"
 #include "label/validity.h"
 
@@ -15,12 +16,6 @@ namespace {
 int code_of(int face, int label) { return 8 * face + label + 1; }
 int face_in(int code) { return code / 8; }
 int label_in(int code) { return code % 8 - 1; }
-
-template <class Row>
-Row sorted(Row row) {
-  std::sort(row.begin(), row.end());
-  return row;
-}
 
 bool has(const std::vector<int>& numbers, int id) { return std::binary_search(numbers.begin(), numbers.end(), id); }
 

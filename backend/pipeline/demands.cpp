@@ -7,17 +7,12 @@
 
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/sorted.h"
 #include "label/features.h"
 #include "pipeline/edge_runs.h"
 
 namespace polycube {
 namespace {
-
-template <class Row>
-Row sorted(Row row) {
-  std::sort(row.begin(), row.end());
-  return row;
-}
 
 /// Per block and side the CAD faces there, ascending.
 using SideFaces = std::vector<std::array<std::vector<int>, 6>>;

@@ -21,7 +21,7 @@ import bracket  # noqa: E402
 import calculix  # noqa: E402
 import ccx  # noqa: E402
 from freecad import polycube  # noqa: E402
-from freecad.polycube import commands, task_panel  # noqa: E402
+from freecad.polycube import macro, task_panel  # noqa: E402
 
 OUT = os.environ["POLYCUBE_GUIDE_OUT"]
 SIZE, FORCE = 4.0, 4000.0  # mm, N
@@ -67,23 +67,12 @@ def set_up(document):
     return part, analysis, named
 
 
-def open_panel(part):
-    """By the command, as the user does."""
-    panels = []
-    original = task_panel.MeshPanel.__init__
-
-    def catch(panel, *arguments, **named):
-        panels.append(panel)
-        original(panel, *arguments, **named)
-
-    task_panel.MeshPanel.__init__ = catch
-    FreeCADGui.Selection.clearSelection()
-    FreeCADGui.Selection.addSelection(part)
-    FreeCADGui.runCommand(commands.MeshFromShape.Name)
-    task_panel.MeshPanel.__init__ = original
-    FreeCADGui.Selection.clearSelection()
+def open_panel(part, analysis):
+    macro.begin()
+    panel = task_panel.MeshPanel(part, analysis=analysis)
+    FreeCADGui.Control.showDialog(panel)
     rest()
-    return panels[0]
+    return panel
 
 
 def scroll_to(panel, widget):
@@ -128,7 +117,7 @@ def main():
     view = FreeCADGui.activeDocument().activeView()
     view.setCameraOrientation(FreeCAD.Rotation(0.4247, 0.1759, 0.3399, 0.8205).Q)  # from the front, where the rib is
     view.fitAll()
-    panel = open_panel(part)
+    panel = open_panel(part, analysis)
     panel.field("size").value = SIZE
     apply(panel)
     view.fitAll()

@@ -88,7 +88,19 @@ class _Quantity(Field):
         self.widget.setProperty("rawValue", float(value))
 
 
-class _Number(Field):
+class _Spin(Field):
+    """A number in a spin box."""
+
+    @property
+    def value(self):
+        return self.widget.value()
+
+    @value.setter
+    def value(self, value):
+        self.widget.setValue(value)
+
+
+class _Number(_Spin):
     def __init__(self, option, changed):
         super().__init__(option, QtGui.QDoubleSpinBox())
         self.widget.setRange(option["min"], option["max"])
@@ -98,16 +110,8 @@ class _Number(Field):
             self.widget.setSpecialValueText(tr("none"))
         self.widget.valueChanged.connect(lambda _: changed())
 
-    @property
-    def value(self):
-        return self.widget.value()
 
-    @value.setter
-    def value(self, value):
-        self.widget.setValue(value)
-
-
-class _Whole(Field):
+class _Whole(_Spin):
     def __init__(self, option, changed):
         super().__init__(option, QtGui.QSpinBox())
         self.widget.setRange(int(option["min"]), int(min(option["max"], _MOST)))
@@ -116,14 +120,6 @@ class _Whole(Field):
         if option["default"] == option["min"] == 0:
             self.widget.setSpecialValueText(tr("automatic"))
         self.widget.valueChanged.connect(lambda _: changed())
-
-    @property
-    def value(self):
-        return self.widget.value()
-
-    @value.setter
-    def value(self, value):
-        self.widget.setValue(value)
 
 
 class _Choice(Field):

@@ -7,9 +7,9 @@
 
 #include "blocks/coarsen.h"
 #include "blocks/pieces.h"
-#include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -57,8 +57,7 @@ struct PlaneArea {
 };
 
 struct Box {
-  std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}},
-      chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
+  std::array<std::array<int, 2>, 3> plane{{{-1, -1}, {-1, -1}, {-1, -1}}}, sheet{{{-1, -1}, {-1, -1}, {-1, -1}}}, chart{{{-1, -1}, {-1, -1}, {-1, -1}}};
 };
 
 class Assembly {
@@ -234,8 +233,7 @@ class Assembly {
           for (int c : cuts_of[reached[i]]) {
             const Flux& f = pieces_.fluxes[c];
             const int to = f.low == reached[i] ? f.high : f.low;
-            if (f.axis != axis || f.plane != plane || f.area == 0 || std::find(reached.begin(), reached.end(), to) != reached.end())
-              continue;
+            if (f.axis != axis || f.plane != plane || f.area == 0 || std::find(reached.begin(), reached.end(), to) != reached.end()) continue;
             const int other = block_of_[to];
             if (other < 0) {
               reached.push_back(to);
@@ -265,10 +263,8 @@ class Assembly {
   /// Whether a block has the same rectangle on the other side of a block's side, and nothing there yet.
   bool fits(int block, int other, int side) const {
     const int axis = side / 2;
-    if (complex_.blocks[other].neighbours[side ^ 1] >= 0 || planes_[other][axis][1 - side % 2] != planes_[block][axis][side % 2])
-      return false;
-    return planes_[other][(axis + 1) % 3] == planes_[block][(axis + 1) % 3] &&
-           planes_[other][(axis + 2) % 3] == planes_[block][(axis + 2) % 3];
+    if (complex_.blocks[other].neighbours[side ^ 1] >= 0 || planes_[other][axis][1 - side % 2] != planes_[block][axis][side % 2]) return false;
+    return planes_[other][(axis + 1) % 3] == planes_[block][(axis + 1) % 3] && planes_[other][(axis + 2) % 3] == planes_[block][(axis + 2) % 3];
   }
 
   /// Where a chart overshoots its border and folds back, the two layers cancel, but the blocks on both sides have them as their boundary:
@@ -310,8 +306,7 @@ class Assembly {
       for_blocks_at_nodes(c, [&](int node, int block) {
         const int axis = map_.charts[c].axis;
         for (int s : {0, 1}) {
-          if (planes_[block][axis][s] == cuts_.chart_plane[c] && in_box(cuts_.image[node], block))
-            touched.push_back({block, 2 * axis + s, c});
+          if (planes_[block][axis][s] == cuts_.chart_plane[c] && in_box(cuts_.image[node], block)) touched.push_back({block, 2 * axis + s, c});
         }
       });
     }
@@ -450,9 +445,8 @@ BlockComplex extract(const TetMesh& tets, const PolycuboidMap& map, const TetTop
   if (report.asymmetric_neighbours > 0) fail("blocks do not fit their neighbours", {}, tets, map);
   if (report.nonmanifold_edges > 0) fail("charts touch, the boundary of the blocks is not a manifold", report.touching_charts, tets, map);
   if (const int euler = euler_characteristic(tets.triangles); report.euler != euler) {
-    fail("the blocks do not have the topology of the solid, Euler characteristic " + std::to_string(report.euler) + " instead of " +
-             std::to_string(euler),
-         {}, tets, map);
+    fail("the blocks do not have the topology of the solid, Euler characteristic " + std::to_string(report.euler) + " instead of " + std::to_string(euler), {},
+         tets, map);
   }
   monitor.progress("blocks", 1);
   return complex;

@@ -54,8 +54,7 @@ struct BlockReport {
   int bare_sides = 0;                ///< boundary sides that lie on no chart
   std::vector<int> lost_charts;      ///< charts (neither features nor collapsed) on no block side
   bool good(int solid_euler) const {
-    return blocks > 0 && nonmanifold_edges == 0 && asymmetric_neighbours == 0 && bare_sides == 0 && lost_charts.empty() &&
-           euler == solid_euler;
+    return blocks > 0 && nonmanifold_edges == 0 && asymmetric_neighbours == 0 && bare_sides == 0 && lost_charts.empty() && euler == solid_euler;
   }
 };
 BlockReport check(const BlockComplex& blocks, const PolycuboidMap& map);

@@ -49,8 +49,7 @@ BlockReport check(const BlockComplex& complex, const PolycuboidMap& map) {
   }
   std::sort(report.touching_charts.begin(), report.touching_charts.end());
   report.touching_charts.erase(std::unique(report.touching_charts.begin(), report.touching_charts.end()), report.touching_charts.end());
-  report.euler =
-      static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), 1)) - static_cast<int>(edges.size()) + report.boundary_quads;
+  report.euler = static_cast<int>(std::count(on_boundary.begin(), on_boundary.end(), 1)) - static_cast<int>(edges.size()) + report.boundary_quads;
   for (std::size_t c = 0; c < map.charts.size(); ++c) {
     const bool collapsed = std::binary_search(complex.collapsed.begin(), complex.collapsed.end(), static_cast<int>(c));
     if (map.charts[c].sign != 0 && !collapsed && !present[c]) report.lost_charts.push_back(static_cast<int>(c));

@@ -74,8 +74,7 @@ void TetClipper::split(const Polyhedron& in, int axis, double value, Polyhedron&
       at = (*edge)[1];
       next_.erase(edge);
     }
-    above.loops.insert(above.loops.end(), below.loops.rbegin(),
-                       below.loops.rbegin() + static_cast<std::ptrdiff_t>(below.loops.size() - start));
+    above.loops.insert(above.loops.end(), below.loops.rbegin(), below.loops.rbegin() + static_cast<std::ptrdiff_t>(below.loops.size() - start));
     below.close_face(4 + 2 * axis + 1);
     above.close_face(4 + 2 * axis);
   }

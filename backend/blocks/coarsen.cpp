@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/union_find.h"
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 
@@ -31,8 +31,7 @@ Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& p
   std::vector<std::array<int, 2>> contact;  // sheet representative, chart
   for (int b = 0; b < count; ++b) {
     for (int side = 0; side < 6; ++side) {
-      if (fine[b].neighbours[side] < 0 && fine[b].side_chart[side] >= 0)
-        contact.push_back({sheet_of.find(face(b, side)), fine[b].side_chart[side]});
+      if (fine[b].neighbours[side] < 0 && fine[b].side_chart[side] >= 0) contact.push_back({sheet_of.find(face(b, side)), fine[b].side_chart[side]});
     }
   }
   std::vector<char> has_chart(static_cast<std::size_t>(6 * count), 0);

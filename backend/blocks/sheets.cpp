@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/union_find.h"
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {

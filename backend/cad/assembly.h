@@ -17,8 +17,8 @@ struct Interface {
   double area = 0;                        ///< mm^2
 };
 
-/// The solids of a part, in the order of FreeCAD's names Solid1, Solid2 ... Faces, edges and vertices of all of them have the numbers of the whole shape as read,
-/// so that one shared by two solids has one number.
+/// The solids of a part, in the order of FreeCAD's names Solid1, Solid2 ... Faces, edges and vertices of all of them have the numbers of the whole shape as
+/// read, so that one shared by two solids has one number.
 struct Assembly {
   std::vector<CadModel> solids;
   std::vector<std::string> labels;      ///< per solid: of the object or product that it comes from, or empty
@@ -31,9 +31,9 @@ struct Assembly {
 
   /// "Solid2", with its label where it has one: Solid2 "Pin".
   std::string name(int solid) const;
-  double diagonal() const;          ///< of the bounding box of all, mm
-  double volume() const;            ///< mm^3
-  std::vector<int> faces() const;   ///< numbers of all solids' faces, ascending
+  double diagonal() const;         ///< of the bounding box of all, mm
+  double volume() const;           ///< mm^3
+  std::vector<int> faces() const;  ///< numbers of all solids' faces, ascending
   std::vector<int> edges() const;
 
  private:

@@ -14,37 +14,37 @@ enum class SurfaceKind { kPlane, kCylinder, kCone, kSphere, kTorus, kExtrusion, 
 
 struct CadFace {
   SurfaceKind kind = SurfaceKind::kOther;  ///< what it is, however the file writes it (a line revolved about a parallel axis is a cylinder)
-  double area = 0;             ///< mm^2
-  Vec3 axis = Vec3::Zero();    ///< plane: outward normal; cylinder, cone, torus, revolution: axis; extrusion: direction; else zero. Unit.
-  Vec3 centre = Vec3::Zero();  ///< a point on the axis, or in the plane
-  double radius = 0;           ///< cylinder, sphere, torus (minor): mm, else 0
-  std::vector<int> edges;      ///< CAD edges on its border, ascending, without degenerate ones
-  double tolerance = 0;        ///< mm
+  double area = 0;                         ///< mm^2
+  Vec3 axis = Vec3::Zero();                ///< plane: outward normal; cylinder, cone, torus, revolution: axis; extrusion: direction; else zero. Unit.
+  Vec3 centre = Vec3::Zero();              ///< a point on the axis, or in the plane
+  double radius = 0;                       ///< cylinder, sphere, torus (minor): mm, else 0
+  std::vector<int> edges;                  ///< CAD edges on its border, ascending, without degenerate ones
+  double tolerance = 0;                    ///< mm
 };
 
 struct CadEdge {
-  std::array<int, 2> faces{0, 0};      ///< CAD faces on both sides; the same twice for a seam
-  std::array<int, 2> vertices{0, 0};   ///< start and end; the same twice for a closed edge
-  double length = 0;                   ///< mm
+  std::array<int, 2> faces{0, 0};     ///< CAD faces on both sides; the same twice for a seam
+  std::array<int, 2> vertices{0, 0};  ///< start and end; the same twice for a closed edge
+  double length = 0;                  ///< mm
   bool closed = false;
-  bool seam = false;                   ///< both sides are the same face
-  bool degenerate = false;             ///< a point (cone tip, sphere pole): no curve
-  bool tip = false;                    ///< degenerate, and the face runs into a point there, as a cone does and a sphere at its pole does not
-  bool tiny = false;                   ///< shorter than 1e-5 of the part's diagonal: all edges that end at one of its vertices name the first of them
-  double min_angle = 0, max_angle = 0; ///< least and largest interior dihedral angle along it, radians: pi smooth, < pi convex
-  double tolerance = 0;                ///< mm
+  bool seam = false;                    ///< both sides are the same face
+  bool degenerate = false;              ///< a point (cone tip, sphere pole): no curve
+  bool tip = false;                     ///< degenerate, and the face runs into a point there, as a cone does and a sphere at its pole does not
+  bool tiny = false;                    ///< shorter than 1e-5 of the part's diagonal: all edges that end at one of its vertices name the first of them
+  double min_angle = 0, max_angle = 0;  ///< least and largest interior dihedral angle along it, radians: pi smooth, < pi convex
+  double tolerance = 0;                 ///< mm
 };
 
 struct FacePoint {
   Vec3 point = Vec3::Zero();  ///< on the trimmed face
   Vec2 uv = Vec2::Zero();
-  double distance = 0;   ///< mm, from the asked point
+  double distance = 0;  ///< mm, from the asked point
 };
 
 struct EdgePoint {
   Vec3 point = Vec3::Zero();
-  double t = 0;          ///< curve parameter
-  double distance = 0;   ///< mm
+  double t = 0;         ///< curve parameter
+  double distance = 0;  ///< mm
 };
 
 struct ReadOptions {
@@ -90,8 +90,8 @@ class CadModel {
 
   Vec3 box_min() const;
   Vec3 box_max() const;
-  double diagonal() const;   ///< of the bounding box, mm
-  double volume() const;     ///< mm^3
+  double diagonal() const;           ///< of the bounding box, mm
+  double volume() const;             ///< mm^3
   int euler_characteristic() const;  ///< of the boundary surface
 
   /// Nearest point of the trimmed face. `seed`, if not null, is a (u, v) near the answer and makes it much faster.
@@ -104,10 +104,10 @@ class CadModel {
   Mat3 face_bend(int id, const Vec2& uv) const;
   Vec3 face_point(int id, const Vec2& uv) const;
   Vec3 edge_point(int id, double t) const;
-  Vec3 edge_tangent(int id, double t) const;                 ///< unit, start to end
-  Vec3 edge_bend(int id, double t) const;                    ///< curvature vector, 1 / mm, towards the centre of curvature
-  std::array<double, 2> edge_range(int id) const;            ///< parameters of start and end
-  std::vector<Vec3> edge_samples(int id, int count) const;   ///< count >= 2 points evenly by parameter, both ends included
+  Vec3 edge_tangent(int id, double t) const;                ///< unit, start to end
+  Vec3 edge_bend(int id, double t) const;                   ///< curvature vector, 1 / mm, towards the centre of curvature
+  std::array<double, 2> edge_range(int id) const;           ///< parameters of start and end
+  std::vector<Vec3> edge_samples(int id, int count) const;  ///< count >= 2 points evenly by parameter, both ends included
 
   struct Shape;  // OCCT behind it, see cad/shape.h
   const Shape& shape() const { return *shape_; }

@@ -128,7 +128,8 @@ std::vector<int> origins_of(GeneralFuse& fuse, const CadModel& solid, const Topo
   for (int i = 1; i <= entities.Extent(); ++i) {
     for (const TopoDS_Shape& image : fuse.images(entities(i))) {
       const int at = after.FindIndex(image);
-      if (at > 0 && origin[static_cast<std::size_t>(at)] == 0) origin[static_cast<std::size_t>(at)] = solid.brep_order(static_cast<int>(dim)).at(static_cast<std::size_t>(i) - 1);
+      if (at > 0 && origin[static_cast<std::size_t>(at)] == 0)
+        origin[static_cast<std::size_t>(at)] = solid.brep_order(static_cast<int>(dim)).at(static_cast<std::size_t>(i) - 1);
     }
   }
   return origin;
@@ -169,9 +170,11 @@ class ConformalBuilder {
       solids.push_back(CadModel(model_of(after[s], numbering_in(maps, after[s]), monitor)));
       for (const int f : solids.back().faces()) solids_of_face[static_cast<std::size_t>(f)].push_back(static_cast<int>(s));
       const TopoDS_Shape& shape = before[s].shape().shape;
-      origins.push_back({origins_of(fuse, before[s], shape, 2, maps[2]), origins_of(fuse, before[s], shape, 1, maps[1]), origins_of(fuse, before[s], shape, 0, maps[0])});
+      origins.push_back(
+          {origins_of(fuse, before[s], shape, 2, maps[2]), origins_of(fuse, before[s], shape, 1, maps[1]), origins_of(fuse, before[s], shape, 0, maps[0])});
     }
-    ConformalModel model{CadModel(merged(compound, maps, solids)), CadModel(outer_model(outer_solid(after, maps, solids_of_face), maps, monitor)), solids, origins, chosen, {}};
+    ConformalModel model{
+        CadModel(merged(compound, maps, solids)), CadModel(outer_model(outer_solid(after, maps, solids_of_face), maps, monitor)), solids, origins, chosen, {}};
     for (std::size_t f = 1; f < solids_of_face.size(); ++f)
       if (solids_of_face[f].size() == 2) model.interfaces.push_back({static_cast<int>(f), {solids_of_face[f][0], solids_of_face[f][1]}});
     return model;

@@ -12,7 +12,8 @@ struct Origin {
 
 /// The general fuse of solids that touch in faces. All models share one numbering, that of the fused shape; faces between two solids are interfaces.
 struct ConformalModel {
-  CadModel whole;                ///< every face, edge and vertex once: for places and projections. Its edges name two of their faces only, a face is turned as in its first solid.
+  CadModel
+      whole;  ///< every face, edge and vertex once: for places and projections. Its edges name two of their faces only, a face is turned as in its first solid.
   CadModel outer;                ///< the solid that the faces of one solid each bound
   std::vector<CadModel> solids;  ///< in the order of the assembly's
   std::vector<Origin> origins;   ///< per solid
@@ -21,7 +22,8 @@ struct ConformalModel {
   std::vector<std::pair<int, std::array<int, 2>>> interfaces;
 };
 
-/// Joins those solids of an assembly (numbers from 1, ascending). Throws StageFailed("interfaces", ...) where they do not make one solid: where they meet in an edge or a vertex only.
+/// Joins those solids of an assembly (numbers from 1, ascending). Throws StageFailed("interfaces", ...) where they do not make one solid: where they meet in an
+/// edge or a vertex only.
 ConformalModel conform(const Assembly& assembly, const std::vector<int>& solids, const Monitor& monitor);
 
 }  // namespace polycube

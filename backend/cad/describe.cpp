@@ -29,10 +29,10 @@
 namespace polycube {
 namespace {
 
-constexpr int kBorderPieces = 48;    // segments of a curved border in (u, v)
-constexpr int kEdgeSamples = 49;     // of an edge without closed form
-constexpr int kFaceSamples = 24;     // a side of the grid of a face without closed form
-constexpr int kAngleSamples = 9;     // inner points of an edge where the dihedral angle is taken
+constexpr int kBorderPieces = 48;  // segments of a curved border in (u, v)
+constexpr int kEdgeSamples = 49;   // of an edge without closed form
+constexpr int kFaceSamples = 24;   // a side of the grid of a face without closed form
+constexpr int kAngleSamples = 9;   // inner points of an edge where the dihedral angle is taken
 
 Vec2 to_vec(const gp_Pnt2d& p) { return {p.X(), p.Y()}; }
 
@@ -92,8 +92,7 @@ CadEdge edge_facts(const EdgeGeometry& g, const Maps& maps) {
 }
 
 /// Appends the curve of one edge in one face to the polygon, drawn along the wire.
-void draw_border(const EdgeUse& use, double first, double last, bool wire_forward, int edge_id, bool interior,
-                 std::vector<BorderSegment>& border) {
+void draw_border(const EdgeUse& use, double first, double last, bool wire_forward, int edge_id, bool interior, std::vector<BorderSegment>& border) {
   Handle(Geom2d_Curve) curve = use.curve;
   while (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve)) curve = trimmed->BasisCurve();
   const bool straight = !Handle(Geom2d_Line)::DownCast(curve).IsNull();
@@ -174,12 +173,23 @@ FaceGeometry face_geometry(const TopoDS_Face& face) {
     g.surface = trimmed->BasisSurface();
   const GeomAdaptor_Surface adaptor(g.surface);
   switch (adaptor.GetType()) {
-    case GeomAbs_Plane: g.closed_form = adaptor.Plane(); break;
-    case GeomAbs_Cylinder: g.closed_form = adaptor.Cylinder(); break;
-    case GeomAbs_Cone: g.closed_form = adaptor.Cone(); break;
-    case GeomAbs_Sphere: g.closed_form = adaptor.Sphere(); break;
-    case GeomAbs_Torus: g.closed_form = adaptor.Torus(); break;
-    default: break;
+    case GeomAbs_Plane:
+      g.closed_form = adaptor.Plane();
+      break;
+    case GeomAbs_Cylinder:
+      g.closed_form = adaptor.Cylinder();
+      break;
+    case GeomAbs_Cone:
+      g.closed_form = adaptor.Cone();
+      break;
+    case GeomAbs_Sphere:
+      g.closed_form = adaptor.Sphere();
+      break;
+    case GeomAbs_Torus:
+      g.closed_form = adaptor.Torus();
+      break;
+    default:
+      break;
   }
   g.surface->Bounds(g.lower[0], g.upper[0], g.lower[1], g.upper[1]);
   if (g.surface->IsUPeriodic()) g.period[0] = g.surface->UPeriod();
@@ -281,7 +291,9 @@ CadFace face_facts(const FaceGeometry& g, int id, const std::vector<CadEdge>& ed
       info.kind = SurfaceKind::kRevolution;
       set_axis(adaptor.AxeOfRevolution());
       break;
-    default: info.centre = polycube::to_vec(properties.CentreOfMass()); break;
+    default:
+      info.centre = polycube::to_vec(properties.CentreOfMass());
+      break;
   }
   if (g.closed_form.index() == 0) recognise(g, info);
   return info;

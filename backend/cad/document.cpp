@@ -1,17 +1,17 @@
 // FreeCAD documents (.FCStd): which object is the part, and where FreeCAD shows it.
+#include <zip.h>
+
 #include <BRep_Builder.hxx>
 #include <TopAbs_ShapeEnum.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS_Compound.hxx>
-#include <gp_Quaternion.hxx>
-#include <gp_Trsf.hxx>
-#include <zip.h>
-
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
 #include <filesystem>
+#include <gp_Quaternion.hxx>
+#include <gp_Trsf.hxx>
 #include <map>
 #include <optional>
 #include <set>
@@ -57,10 +57,10 @@ class Archive {
 struct DocumentObject {
   std::string name, label, type, shape_file;
   gp_Trsf placement;
-  std::string tip;                     ///< of a PartDesign body
-  std::vector<std::string> group;      ///< what it contains
-  std::set<std::string> links;         ///< all objects that its properties name
-  std::string container, body;         ///< names of the container and of the body it is in, or empty
+  std::string tip;                 ///< of a PartDesign body
+  std::vector<std::string> group;  ///< what it contains
+  std::set<std::string> links;     ///< all objects that its properties name
+  std::string container, body;     ///< names of the container and of the body it is in, or empty
 
   bool is_body() const { return type == "PartDesign::Body"; }
   /// Whether the objects in it have their coordinates from it. A plain group has none.

@@ -145,7 +145,8 @@ bool load_entities(const opencascade::handle<XSControl_WorkSession>& session, co
   opencascade::handle<Interface_InterfaceModel> model;
   if (stream) model = empty_step_model();
   const opencascade::handle<IFSelect_WorkLibrary>& library = session->WorkLibrary();
-  const int status = stream ? library->ReadStream(path.c_str(), *stream, model, session->Protocol()) : library->ReadFile(path.c_str(), model, session->Protocol());
+  const int status =
+      stream ? library->ReadStream(path.c_str(), *stream, model, session->Protocol()) : library->ReadFile(path.c_str(), model, session->Protocol());
   if (status != 0 || model.IsNull()) return false;
   if (const int at = on_cycle(*model, Interface_Graph(model, session->Protocol())); at > 0)
     throw InvalidInput(path + ": the file is damaged: entity " + model->StringLabel(model->Value(at))->ToCString() + " is built on itself");

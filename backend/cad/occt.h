@@ -1,14 +1,14 @@
 // What every call into OCCT's readers and long algorithms needs: silence, time limits, faults as exceptions.
 #pragma once
 
+#include <signal.h>
+
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
 #include <Message_ProgressIndicator.hxx>
 #include <OSD.hxx>
 #include <Standard_ErrorHandler.hxx>
-#include <signal.h>
-
 #include <array>
 #include <iostream>
 #include <mutex>

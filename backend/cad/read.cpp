@@ -1,12 +1,12 @@
 // Files and text to shapes, by their kind.
+#include <unistd.h>
+
 #include <BRepTools_ShapeSet.hxx>
 #include <BRep_Builder.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESData_GlobalSection.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Standard_Failure.hxx>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>

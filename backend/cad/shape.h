@@ -46,11 +46,11 @@ struct FaceGeometry {
   TopoDS_Face face;
   Handle(Geom_Surface) surface;  ///< placed, without rectangular trimming
   std::variant<std::monostate, gp_Pln, gp_Cylinder, gp_Cone, gp_Sphere, gp_Torus> closed_form;
-  double sign = 1;               ///< outward normal = sign * du x dv
-  Vec2 period = Vec2::Zero();    ///< 0: not periodic
-  Vec2 lower, upper;             ///< natural bounds of the parameters
+  double sign = 1;                           ///< outward normal = sign * du x dv
+  Vec2 period = Vec2::Zero();                ///< 0: not periodic
+  Vec2 lower, upper;                         ///< natural bounds of the parameters
   std::array<bool, 2> closed{false, false};  ///< both bounds are the same curve in space although the surface is not periodic
-  Eigen::AlignedBox2d domain;    ///< box of the trimmed domain
+  Eigen::AlignedBox2d domain;                ///< box of the trimmed domain
   int wires = 0;
   std::vector<BorderSegment> border;
   std::vector<int> border_edges;  ///< edges that bound the face in space: no seams, no degenerate ones
@@ -79,9 +79,9 @@ using Numbering = std::array<std::vector<int>, 3>;
 
 /// Tables by number: entry n - 1 is entity n, and empty where the solid has no entity n.
 struct CadModel::Shape {
-  TopoDS_Shape shape;                        ///< the solid, or a compound of nothing else
+  TopoDS_Shape shape;  ///< the solid, or a compound of nothing else
   Numbering numbers;
-  std::array<std::vector<int>, 3> ascending; ///< the same numbers, sorted
+  std::array<std::vector<int>, 3> ascending;  ///< the same numbers, sorted
   std::vector<std::string> warnings;
   std::vector<CadFace> faces;
   std::vector<CadEdge> edges;
@@ -125,7 +125,8 @@ struct FoundSolids {
   std::vector<std::string> warnings{};
 };
 
-/// As find_solid, but of a shape with several solids each of them, in the order of TopExp::MapShapes. Throws InvalidInput, with the solid's name where there are several.
+/// As find_solid, but of a shape with several solids each of them, in the order of TopExp::MapShapes. Throws InvalidInput, with the solid's name where there
+/// are several.
 FoundSolids find_solids(const FileShape& read, bool sew_faces, const Monitor& monitor);
 /// Throws InvalidInput unless the shape is a closed valid solid of positive volume.
 void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor& monitor);

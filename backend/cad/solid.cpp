@@ -236,7 +236,8 @@ FoundSolid sew(const FileShape& read, double distance, const Monitor& monitor) {
   if (shells.empty()) throw InvalidInput(start + "no shell comes of it");
   FoundSolid found{solid_of(shells), {}, {}};
   found.numbers = numbering(read.shape, found.solid, became);
-  found.warnings.push_back("the shape is no solid: its " + plural(count(found.solid, TopAbs_FACE), "face is", "faces are") + " sewn to one within " + number_text(distance) + " mm");
+  found.warnings.push_back("the shape is no solid: its " + plural(count(found.solid, TopAbs_FACE), "face is", "faces are") + " sewn to one within " +
+                           number_text(distance) + " mm");
   const std::string left_out = beside(open_faces, count(read.shape, TopAbs_EDGE, TopAbs_FACE), count(read.shape, TopAbs_VERTEX, TopAbs_EDGE));
   if (!left_out.empty()) found.warnings.push_back(left_out);
   return found;
@@ -294,7 +295,8 @@ FoundSolids find_solids_unguarded(const FileShape& read, const Monitor& monitor)
   }
   TopTools_IndexedMapOfShape own;
   for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) TopExp::MapShapes(it.Current(), TopAbs_FACE, own);
-  const std::string left_out = beside(count(shape, TopAbs_FACE) - own.Extent(), count(shape, TopAbs_EDGE, TopAbs_FACE), count(shape, TopAbs_VERTEX, TopAbs_EDGE));
+  const std::string left_out =
+      beside(count(shape, TopAbs_FACE) - own.Extent(), count(shape, TopAbs_EDGE, TopAbs_FACE), count(shape, TopAbs_VERTEX, TopAbs_EDGE));
   if (!left_out.empty()) found.warnings.push_back(left_out);
   return found;
 }

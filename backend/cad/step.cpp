@@ -13,8 +13,8 @@
 #include <StepRepr_GlobalUncertaintyAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_HArray1OfRepresentationItem.hxx>
-#include <StepRepr_Representation.hxx>
 #include <StepRepr_PropertyDefinition.hxx>
+#include <StepRepr_Representation.hxx>
 #include <StepRepr_RepresentationContext.hxx>
 #include <StepRepr_RepresentationRelationship.hxx>
 #include <StepShape_FaceBasedSurfaceModel.hxx>
@@ -261,7 +261,9 @@ FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
   FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
   read.labels = solid_labels(reader, read.shape);
-  if (faults > 0) read.warnings.push_back("OpenCASCADE finds " + std::to_string(faults) + (faults == 1 ? " fault" : " faults") + " in the STEP file; the solid is not built on any of them");
+  if (faults > 0)
+    read.warnings.push_back("OpenCASCADE finds " + std::to_string(faults) + (faults == 1 ? " fault" : " faults") +
+                            " in the STEP file; the solid is not built on any of them");
   return read;
 }
 

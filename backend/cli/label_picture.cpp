@@ -119,7 +119,8 @@ class Painter {
     for (int k = 0; k < 3; ++k) {
       const double u = x + length * right[k], v = y - length * up[k];
       picture.line(x, y, u, v, 2.5 * stroke_, label_paint(2 * k));
-      picture.text(x + 1.25 * length * right[k] - 6 * stroke_, y - 1.25 * length * up[k] + 8 * stroke_, 16 * stroke_, 1.5 * stroke_, std::string(1, "XYZ"[k]), kInk);
+      picture.text(x + 1.25 * length * right[k] - 6 * stroke_, y - 1.25 * length * up[k] + 8 * stroke_, 16 * stroke_, 1.5 * stroke_, std::string(1, "XYZ"[k]),
+                   kInk);
     }
   }
 
@@ -127,8 +128,8 @@ class Painter {
   const LabelledPart& part_;
   const Inspection& inspection_;
   bool numbers_;
-  int side_;       // pixels of a view
-  double stroke_;  // pixels at twice the size
+  int side_;                            // pixels of a view
+  double stroke_;                       // pixels at twice the size
   std::vector<Vec3> points_, surface_;  // in the frame
   std::vector<std::array<int, 3>> neighbours_;
 };

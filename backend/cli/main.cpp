@@ -150,8 +150,8 @@ struct MeshCommand : PartCommand {
     for (const std::string& warning : made.report.warnings) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
     const CadCapture& c = made.report.capture;
     std::printf("%s: %d hexahedra, %d nodes, scaled Jacobian min %.3f mean %.3f, CAD faces %d/%d edges %d/%d vertices %d/%d, %.1f s\n", output.c_str(),
-                made.report.hexes, made.report.nodes, made.report.quality.min_scaled_jacobian, made.report.quality.mean_scaled_jacobian,
-                c.faces_captured, c.faces, c.edges_captured, c.edges, c.vertices_captured, c.vertices, seconds_since(start));
+                made.report.hexes, made.report.nodes, made.report.quality.min_scaled_jacobian, made.report.quality.mean_scaled_jacobian, c.faces_captured,
+                c.faces, c.edges_captured, c.edges, c.vertices_captured, c.vertices, seconds_since(start));
   }
 
   std::string output;

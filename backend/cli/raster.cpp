@@ -90,9 +90,7 @@ bool Picture::write_png(const std::string& path) const {
 }
 
 View::View(Picture& picture, const Vec3& eye, const std::vector<Vec3>& points)
-    : picture_(picture),
-      depth_(static_cast<std::size_t>(picture.width()) * picture.height(), std::numeric_limits<float>::infinity()),
-      ids_(depth_.size(), 0) {
+    : picture_(picture), depth_(static_cast<std::size_t>(picture.width()) * picture.height(), std::numeric_limits<float>::infinity()), ids_(depth_.size(), 0) {
   axes_.row(2) = eye.normalized();
   axes_.row(0) = Vec3::UnitZ().cross(eye).normalized();
   axes_.row(1) = axes_.row(2).cross(axes_.row(0));

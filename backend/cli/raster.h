@@ -55,7 +55,7 @@ class View {
  private:
   bool visible(const Vec3& pixel) const;
   Picture& picture_;
-  Mat3 axes_;      // rows: right, up, towards the eye
+  Mat3 axes_;  // rows: right, up, towards the eye
   Vec3 centre_;
   double scale_, slack_;
   std::vector<float> depth_;

@@ -28,7 +28,8 @@ struct Supervision {
   std::vector<std::string> outputs;  ///< files that the work writes by way of a Draft
 };
 
-/// From now on SIGINT, SIGTERM and SIGHUP (but under nohup) are for supervise(), which it calls itself; a pipe that nobody reads ends nothing. Call it as early as may be.
+/// From now on SIGINT, SIGTERM and SIGHUP (but under nohup) are for supervise(), which it calls itself; a pipe that nobody reads ends nothing. Call it as early
+/// as may be.
 void watch_for_stops();
 
 /// Runs the work in a child process and returns its exit status. A child that dies of a signal counts as failed (2): one line on standard

@@ -55,7 +55,8 @@ std::vector<Chart> find_charts(const std::vector<Triangle>& triangles, const std
 }
 
 std::array<unsigned char, 3> label_colour(int label) {
-  static constexpr std::array<std::array<unsigned char, 3>, 6> kColours{{{236, 106, 94}, {90, 200, 205}, {118, 196, 92}, {214, 122, 208}, {100, 140, 235}, {240, 205, 90}}};
+  static constexpr std::array<std::array<unsigned char, 3>, 6> kColours{
+      {{236, 106, 94}, {90, 200, 205}, {118, 196, 92}, {214, 122, 208}, {100, 140, 235}, {240, 205, 90}}};
   return kColours.at(static_cast<std::size_t>(label));
 }
 

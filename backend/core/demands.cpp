@@ -98,7 +98,8 @@ Divisions parse_divisions(const std::string& flag, const std::string& text) {
                 d.at_least = *from;
                 d.at_most = *to;
               }
-              if (d.solid > 0 && d.at_most != Division::kNoMaximum) throw InvalidInput(flag + ": of the walls of a solid only the least number can be given, as " + std::string(what) + "=3..");
+              if (d.solid > 0 && d.at_most != Division::kNoMaximum)
+                throw InvalidInput(flag + ": of the walls of a solid only the least number can be given, as " + std::string(what) + "=3..");
               if (d.at_least < 1) throw InvalidInput(flag + ": there must be 1 element at least, not " + std::string(count));
               if (d.at_most < d.at_least) throw InvalidInput(flag + ": " + std::string(what) + "=" + std::string(count) + " leaves no number");
               if (d.at_least > 1'000'000) throw InvalidInput(flag + ": " + std::to_string(d.at_least) + " elements are too many");

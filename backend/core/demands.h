@@ -11,10 +11,10 @@ namespace polycube {
 /// How many elements along a CAD edge, between two CAD faces opposite each other, or at least through every wall of a solid.
 struct Division {
   static constexpr int kNoMaximum = std::numeric_limits<int>::max();
-  int edge = 0;                  ///< CAD edge, or 0
-  std::array<int, 2> faces{};    ///< CAD faces, ascending, where edge is 0
+  int edge = 0;                ///< CAD edge, or 0
+  std::array<int, 2> faces{};  ///< CAD faces, ascending, where edge is 0
   int at_least = 1, at_most = kNoMaximum;
-  int solid = 0;                 ///< number of the solid where edge and faces are 0
+  int solid = 0;  ///< number of the solid where edge and faces are 0
   friend bool operator==(const Division&, const Division&) = default;
 };
 
@@ -40,8 +40,8 @@ using Divisions = std::vector<Division>;
 using LocalSizes = std::vector<LocalSize>;
 using EdgeBiases = std::vector<EdgeBias>;
 
-/// From text such as "Edge4=6,Face1-Face2=3..,Face3-Face5=..4,Edge7=2..5,Solid2=3..": exactly, at least, at most, between; of a solid's walls at least only. Throws InvalidInput that
-/// starts with `flag`.
+/// From text such as "Edge4=6,Face1-Face2=3..,Face3-Face5=..4,Edge7=2..5,Solid2=3..": exactly, at least, at most, between; of a solid's walls at least only.
+/// Throws InvalidInput that starts with `flag`.
 Divisions parse_divisions(const std::string& flag, const std::string& text);
 /// From text such as "Face3=0.5,X=2,Solid2=1.5".
 LocalSizes parse_local_sizes(const std::string& flag, const std::string& text);

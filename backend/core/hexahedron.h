@@ -24,15 +24,12 @@ inline constexpr std::array<std::array<int, 4>, 6> kHexFaces{{
 }};
 
 /// Edges in the order of VTK's and Abaqus' 20-node hexahedron: bottom ring, top ring, verticals.
-inline constexpr std::array<std::array<int, 2>, 12> kHexEdges{
-    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+inline constexpr std::array<std::array<int, 2>, 12> kHexEdges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
 
 /// Per corner its three neighbours, right-handed: det(n0-c, n1-c, n2-c) > 0 in a good cell.
-inline constexpr std::array<std::array<int, 3>, 8> kCornerNeighbours{
-    {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
+inline constexpr std::array<std::array<int, 3>, 8> kCornerNeighbours{{{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
 
 /// Integer coordinates (u, v, w) of the corners.
-inline constexpr std::array<std::array<int, 3>, 8> kCornerCoordinates{
-    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+inline constexpr std::array<std::array<int, 3>, 8> kCornerCoordinates{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
 }  // namespace polycube

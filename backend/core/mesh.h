@@ -18,7 +18,7 @@ using Segment = std::array<int, 2>;
 /// A tet is positive: (p1-p0) x (p2-p0) . (p3-p0) > 0. A triangle's normal points out of the solid.
 struct TetMesh {
   std::vector<Vec3> points;
-  std::vector<CadRef> point_cad;    ///< per point: the lowest-dimensional CAD entity it stands on
+  std::vector<CadRef> point_cad;  ///< per point: the lowest-dimensional CAD entity it stands on
   std::vector<Tet> tets;
   std::vector<Triangle> triangles;  ///< all boundary facets of the tets
   std::vector<int> triangle_face;   ///< per triangle: CAD face
@@ -26,11 +26,11 @@ struct TetMesh {
   std::vector<int> segment_edge;    ///< per segment: CAD edge
 
   // Of several solids in one mesh also what lies between them; the members above know their outer boundary only, and points between solids count as inside.
-  std::vector<int> tet_solid{};             ///< per tet: index of its solid; empty for one solid
-  std::vector<Triangle> inner_triangles{};  ///< facets between two solids; the normal points out of the one with the lower index
-  std::vector<int> inner_face{};            ///< per inner triangle: CAD face
-  std::vector<Segment> inner_segments{};    ///< mesh edges that lie on CAD edges and not on the outer boundary
-  std::vector<int> inner_segment_edge{};    ///< per inner segment: CAD edge
+  std::vector<int> tet_solid{};                       ///< per tet: index of its solid; empty for one solid
+  std::vector<Triangle> inner_triangles{};            ///< facets between two solids; the normal points out of the one with the lower index
+  std::vector<int> inner_face{};                      ///< per inner triangle: CAD face
+  std::vector<Segment> inner_segments{};              ///< mesh edges that lie on CAD edges and not on the outer boundary
+  std::vector<int> inner_segment_edge{};              ///< per inner segment: CAD edge
   std::vector<std::pair<int, int>> inner_vertices{};  ///< points at CAD vertices that are not on the outer boundary, and these
 };
 
@@ -45,7 +45,7 @@ struct Chart {
 
 /// A polycuboid map: tets, their images, and the charts (features included) that are axis-aligned planes of the image.
 struct PolycuboidMap {
-  std::vector<Vec3> image;     ///< per point of the tet mesh; the coordinate chart.axis of every chart.nodes is exactly chart.value
+  std::vector<Vec3> image;  ///< per point of the tet mesh; the coordinate chart.axis of every chart.nodes is exactly chart.value
   std::vector<Chart> charts;
 };
 

@@ -16,7 +16,8 @@ namespace polycube {
 namespace {
 
 constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-// Without a size: the longest edge, and the one to come near to where nothing asks for smaller ones (27 parts: with a 15th for both the cells' mean scaled Jacobian is lower).
+// Without a size: the longest edge, and the one to come near to where nothing asks for smaller ones (27 parts: with a 15th for both the cells' mean scaled
+// Jacobian is lower).
 constexpr double kLongestPerDiagonal = 15, kSizesPerDiagonal = 20;
 // Through a wall that bends: a quadratic element is linear in strain, two show where it turns; three linear ones do as well with C3D8I.
 constexpr int kLayersOfSecondOrder = 2, kLayersOfFirstOrder = 3;
@@ -145,8 +146,7 @@ void check_bounds(const OptionSpec& option, double value) {
     const std::string bound = option.zero_is_unset ? "greater than 0" : "at least " + number_text(option.min);
     throw InvalidInput(flag(option.name) + " must be " + bound + ", not " + number_text(value));
   }
-  if (value > option.max)
-    throw InvalidInput(flag(option.name) + " must be at most " + number_text(option.max) + ", not " + number_text(value));
+  if (value > option.max) throw InvalidInput(flag(option.name) + " must be at most " + number_text(option.max) + ", not " + number_text(value));
 }
 
 int order_of(const std::string& element_type) { return element_type.rfind("C3D20", 0) == 0 ? 2 : 1; }
@@ -167,10 +167,7 @@ const std::vector<OptionSpec>& option_table() {
        .member = &MeshOptions::hexes,
        .max = kMostHexes,
        .zero_is_unset = true},
-      {.name = "coarsest",
-       .unit = "",
-       .meaning = "The fewest hexahedra that keep the part's shape, instead of a size.",
-       .member = &MeshOptions::coarsest},
+      {.name = "coarsest", .unit = "", .meaning = "The fewest hexahedra that keep the part's shape, instead of a size.", .member = &MeshOptions::coarsest},
       {.name = "order",
        .unit = "",
        .meaning = "Element order: 1 (8 nodes) or 2 (20 nodes, mid-edge nodes on the CAD).",
@@ -199,10 +196,7 @@ const std::vector<OptionSpec>& option_table() {
        .meaning = "Take faces without a solid for one if they sew to it within the file's own tolerance.",
        .member = &MeshOptions::sew,
        .advanced = true},
-      {.name = "labels",
-       .unit = "",
-       .meaning = "Axes of CAD faces set by hand, such as Face3=+X,Face7=-Z.",
-       .member = &MeshOptions::labels},
+      {.name = "labels", .unit = "", .meaning = "Axes of CAD faces set by hand, such as Face3=+X,Face7=-Z.", .member = &MeshOptions::labels},
       {.name = "frame",
        .unit = "",
        .meaning = "Directions of the labels' X and Y in the part's coordinates, such as 1,0,0/0,1,0. Default: found from the part.",
@@ -232,7 +226,8 @@ const std::vector<OptionSpec>& option_table() {
        .max = 100},
       {.name = "divisions",
        .unit = "",
-       .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5; at least through the walls of a solid: Solid2=3..",
+       .meaning = "Elements along CAD edges and between opposite CAD faces, such as Edge4=6,Face1-Face2=3.. (at least), ..4 (at most), 2..5; at least through "
+                  "the walls of a solid: Solid2=3..",
        .member = &MeshOptions::divisions},
       {.name = "sizes",
        .unit = "mm",
@@ -351,13 +346,12 @@ void check(const MeshOptions& options) {
       throw InvalidInput(flag(option.name) + ": '" + word + "' is not one of " + all);
     }
   }
-  if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1)
-    throw InvalidInput("give only one of --size, --hexes and --coarsest");
+  if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1) throw InvalidInput("give only one of --size, --hexes and --coarsest");
   if (options.coarsest && !options.sizes.empty()) throw InvalidInput("--coarsest leaves no room for --sizes");
   if (options.coarsest && options.max_size > 0) throw InvalidInput("--coarsest leaves no room for --max-size");
   if (!options.element_type.empty() && order_of(options.element_type) != options.order)
-    throw InvalidInput("--element-type " + options.element_type + " is of order " + std::to_string(order_of(options.element_type)) +
-                       ", but --order " + std::to_string(options.order) + " is asked for");
+    throw InvalidInput("--element-type " + options.element_type + " is of order " + std::to_string(order_of(options.element_type)) + ", but --order " +
+                       std::to_string(options.order) + " is asked for");
 }
 
 void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges, int solids) {
@@ -374,7 +368,9 @@ void check(const MeshOptions& options, double diagonal, const std::vector<int>& 
     throw InvalidInput(start + " does not exist, the part has " + std::to_string(numbers.size()) + (kind == "Face" ? " faces" : " edges"));
   };
   const auto check_solid = [&](const char* option, int id) {
-    if (id > solids) throw InvalidInput(std::string(option) + ": Solid" + std::to_string(id) + " does not exist, the part has " + std::to_string(solids) + (solids == 1 ? " solid" : " solids"));
+    if (id > solids)
+      throw InvalidInput(std::string(option) + ": Solid" + std::to_string(id) + " does not exist, the part has " + std::to_string(solids) +
+                         (solids == 1 ? " solid" : " solids"));
   };
   for (const auto& [face, label] : options.labels) check_entity("--label", "Face", face, faces);
   for (const Division& d : options.divisions) {

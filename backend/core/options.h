@@ -50,16 +50,17 @@ struct MeshOptions {
 
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
-  using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
-                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, EdgeBiases MeshOptions::*, FaceList MeshOptions::*>;
+  using Member =
+      std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
+                   FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, EdgeBiases MeshOptions::*, FaceList MeshOptions::*>;
   std::string name;
-  std::string unit;                  ///< "mm", "s", "degrees" or empty
-  std::string meaning;               ///< one sentence
+  std::string unit;     ///< "mm", "s", "degrees" or empty
+  std::string meaning;  ///< one sentence
   Member member;
-  double min = 0, max = 0;           ///< inclusive bounds of a number
-  bool zero_is_unset = false;        ///< the default 0 stands for "not given"; giving 0 is an error
-  std::vector<std::string> choices{};///< allowed values of a word, or of a number as text; empty: any within the bounds
-  bool advanced = false;             ///< not for everyday use
+  double min = 0, max = 0;             ///< inclusive bounds of a number
+  bool zero_is_unset = false;          ///< the default 0 stands for "not given"; giving 0 is an error
+  std::vector<std::string> choices{};  ///< allowed values of a word, or of a number as text; empty: any within the bounds
+  bool advanced = false;               ///< not for everyday use
 };
 
 const std::vector<OptionSpec>& option_table();
@@ -96,7 +97,8 @@ void check_count(double hexes);
 /// Edge length to come near to, mm: `size`, or diagonal / 20 where it is 0 (three quarters of max_size where that is less).
 double effective_size(const MeshOptions& options, double diagonal);
 
-/// Edge length that none is to exceed, mm: max_size, or diagonal / 15 where no size is given; infinite where a size, a number or the coarsest mesh is asked for.
+/// Edge length that none is to exceed, mm: max_size, or diagonal / 15 where no size is given; infinite where a size, a number or the coarsest mesh is asked
+/// for.
 double effective_max_size(const MeshOptions& options, double diagonal);
 
 /// Elements at least through every wall: `min_layers`, or 2 of second and 3 of first order where it is 0; of the coarsest mesh 1.

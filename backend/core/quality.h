@@ -17,8 +17,8 @@ double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex);
 struct QualitySummary {
   double min_scaled_jacobian = 0;
   double mean_scaled_jacobian = 0;
-  int inverted = 0;                  ///< cells with scaled Jacobian <= 0
-  std::array<int, 10> histogram{};   ///< cells per tenth of scaled Jacobian in (0, 1]; inverted ones are not in it
+  int inverted = 0;                 ///< cells with scaled Jacobian <= 0
+  std::array<int, 10> histogram{};  ///< cells per tenth of scaled Jacobian in (0, 1]; inverted ones are not in it
 };
 
 QualitySummary summarise(const HexMesh& mesh);

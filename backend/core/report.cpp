@@ -45,8 +45,7 @@ std::vector<WorstCell> worst_cells(const HexMesh& mesh, const Association& assoc
   std::vector<int> order(quality.size());
   std::iota(order.begin(), order.end(), 0);
   const auto kept = std::min<std::ptrdiff_t>(count, std::ssize(order));
-  std::partial_sort(order.begin(), order.begin() + kept, order.end(),
-                    [&](int a, int b) { return quality[a] != quality[b] ? quality[a] < quality[b] : a < b; });
+  std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](int a, int b) { return quality[a] != quality[b] ? quality[a] < quality[b] : a < b; });
   order.resize(static_cast<std::size_t>(kept));
 
   // The cell touches a CAD face where one of its nodes lies on a quad of the face.
@@ -108,9 +107,15 @@ Json report_json(const MeshReport& report) {
   }
   json["seconds"] = seconds;
   json["peak_memory_mb"] = report.peak_memory_mb;
-  json["counts"] = {{"tets", report.tets},   {"charts", report.charts}, {"blocks", report.blocks},
-                    {"hexes", report.hexes}, {"nodes", report.nodes},   {"padded_hexes", report.padded_hexes}, {"loose_nodes", report.loose_nodes},
-                    {"thin_walls", report.thin_walls}, {"coarse_circles", report.coarse_circles}};
+  json["counts"] = {{"tets", report.tets},
+                    {"charts", report.charts},
+                    {"blocks", report.blocks},
+                    {"hexes", report.hexes},
+                    {"nodes", report.nodes},
+                    {"padded_hexes", report.padded_hexes},
+                    {"loose_nodes", report.loose_nodes},
+                    {"thin_walls", report.thin_walls},
+                    {"coarse_circles", report.coarse_circles}};
   json["quality"] = {{"min_scaled_jacobian", report.quality.min_scaled_jacobian},
                      {"mean_scaled_jacobian", report.quality.mean_scaled_jacobian},
                      {"inverted", report.quality.inverted},
@@ -135,8 +140,8 @@ Json report_json(const MeshReport& report) {
                  {"edges", entities(1, c.edges, c.edges_captured, c.lost_edges, c.ignored_edges)},
                  {"faces", entities(2, c.faces, c.faces_captured, c.lost_faces, c.ignored_faces)}};
   const QuantizationRecord& q = report.quantization;
-  json["quantization"] = {{"objective", q.objective}, {"bound", q.bound}, {"gap", q.gap},           {"optimal", q.optimal},
-                          {"nodes", q.nodes},         {"cuts", q.cuts},   {"c2_rounds", q.c2_rounds}};
+  json["quantization"] = {{"objective", q.objective}, {"bound", q.bound},        {"gap", q.gap}, {"optimal", q.optimal}, {"nodes", q.nodes},
+                          {"cuts", q.cuts},           {"c2_rounds", q.c2_rounds}};
   json["search"] = {{"plan", report.plan}, {"plans_tried", report.plans_tried}, {"out_of_time", report.out_of_time}};
   if (!report.solids.empty()) {
     json["solids"] = Json::array();
@@ -148,9 +153,8 @@ Json report_json(const MeshReport& report) {
     }
     json["interfaces"] = Json::array();
     for (const InterfaceRecord& i : report.interfaces)
-      json["interfaces"].push_back({{"solids", names(3, {i.solids.begin(), i.solids.end()})},
-                                    {"faces", {names(2, i.faces[0]), names(2, i.faces[1])}},
-                                    {"area", i.area}});
+      json["interfaces"].push_back(
+          {{"solids", names(3, {i.solids.begin(), i.solids.end()})}, {"faces", {names(2, i.faces[0]), names(2, i.faces[1])}}, {"area", i.area}});
   }
   json["warnings"] = report.warnings;
   return json;
@@ -210,8 +214,9 @@ MeshReport join(std::vector<SolidReport> solids) {
       cell.hex += solids[s].first_hex;
       all.worst.push_back(std::move(cell));
     }
-    for (int MeshReport::*count : {&MeshReport::tets, &MeshReport::charts, &MeshReport::blocks, &MeshReport::hexes, &MeshReport::nodes, &MeshReport::plans_tried,
-                                   &MeshReport::padded_hexes, &MeshReport::loose_nodes, &MeshReport::straightened_edges, &MeshReport::thin_walls, &MeshReport::coarse_circles})
+    for (int MeshReport::*count :
+         {&MeshReport::tets, &MeshReport::charts, &MeshReport::blocks, &MeshReport::hexes, &MeshReport::nodes, &MeshReport::plans_tried,
+          &MeshReport::padded_hexes, &MeshReport::loose_nodes, &MeshReport::straightened_edges, &MeshReport::thin_walls, &MeshReport::coarse_circles})
       all.*count += r.*count;
     add(all.quality, r.quality, share);
     add(all.shape.edge_ratio, r.shape.edge_ratio, share);
@@ -222,7 +227,8 @@ MeshReport join(std::vector<SolidReport> solids) {
     for (std::vector<int> CadCapture::*list : {&CadCapture::lost_vertices, &CadCapture::lost_edges, &CadCapture::lost_faces, &CadCapture::ignored_vertices,
                                                &CadCapture::ignored_edges, &CadCapture::ignored_faces})
       add(all.capture.*list, r.capture.*list);
-    for (int CadCapture::*count : {&CadCapture::vertices, &CadCapture::edges, &CadCapture::faces, &CadCapture::vertices_captured, &CadCapture::edges_captured, &CadCapture::faces_captured})
+    for (int CadCapture::*count : {&CadCapture::vertices, &CadCapture::edges, &CadCapture::faces, &CadCapture::vertices_captured, &CadCapture::edges_captured,
+                                   &CadCapture::faces_captured})
       all.capture.*count += r.capture.*count;
     QuantizationRecord& q = all.quantization;
     q.objective += r.quantization.objective;

@@ -19,10 +19,10 @@ struct StageRecord {
 inline constexpr std::size_t kWorstCells = 20;
 
 struct WorstCell {
-  int hex = 0;                      ///< 0-based
-  Vec3 centre = Vec3::Zero();       ///< mm
+  int hex = 0;                 ///< 0-based
+  Vec3 centre = Vec3::Zero();  ///< mm
   double scaled_jacobian = 0;
-  std::vector<int> faces{};         ///< CAD faces that it touches, ascending; empty for an inner cell
+  std::vector<int> faces{};  ///< CAD faces that it touches, ascending; empty for an inner cell
 };
 
 /// CAD entities that the mesh has quads, edges and nodes for, out of all. Seams and degenerate edges are not counted.
@@ -37,7 +37,7 @@ struct CadCapture {
 struct QuantizationRecord {
   double objective = 0, bound = 0, gap = 0;  ///< gap: (objective - bound) / objective
   bool optimal = false;
-  int nodes = 0, cuts = 0, c2_rounds = 0;    ///< of the search tree; C2 constraints met; solutions checked against C2
+  int nodes = 0, cuts = 0, c2_rounds = 0;  ///< of the search tree; C2 constraints met; solutions checked against C2
 };
 
 struct SolidReport;
@@ -52,18 +52,18 @@ struct InterfaceRecord {
 struct MeshReport {
   std::string version;
   MeshOptions options;
-  double size = 0;                      ///< edge length in force, mm
-  std::vector<StageRecord> stages;      ///< in the order they ran; a stage that ran for several candidates is summed up
+  double size = 0;                  ///< edge length in force, mm
+  std::vector<StageRecord> stages;  ///< in the order they ran; a stage that ran for several candidates is summed up
   double peak_memory_mb = 0;
   int tets = 0, charts = 0, blocks = 0, hexes = 0, nodes = 0;
-  QualitySummary quality;               ///< of the corners (first order)
-  ShapeSummary shape;                   ///< likewise
-  double volume = 0;                    ///< mm^3, of the mesh
-  double cad_volume = 0;                ///< mm^3
-  std::vector<WorstCell> worst;         ///< ascending scaled Jacobian, at most kWorstCells
+  QualitySummary quality;        ///< of the corners (first order)
+  ShapeSummary shape;            ///< likewise
+  double volume = 0;             ///< mm^3, of the mesh
+  double cad_volume = 0;         ///< mm^3
+  std::vector<WorstCell> worst;  ///< ascending scaled Jacobian, at most kWorstCells
   CadCapture capture;
   QuantizationRecord quantization;
-  std::string plan;                     ///< of the search: the one that the mesh comes from
+  std::string plan;  ///< of the search: the one that the mesh comes from
   int plans_tried = 0;
   bool out_of_time = false;             ///< the time limit ended the search: a better mesh was not looked for
   int padded_hexes = 0;                 ///< cells that padding added
@@ -74,13 +74,13 @@ struct MeshReport {
   std::vector<int> straightened_faces;  ///< CAD faces with such edges, ascending
   std::vector<SolidReport> solids;      ///< of several: each by itself; the fields above are of all of them
   std::vector<InterfaceRecord> interfaces;
-  std::vector<std::string> warnings;    ///< one line each
+  std::vector<std::string> warnings;  ///< one line each
 };
 
 struct SolidReport {
-  std::string label;                    ///< of the object or product that the solid comes from, or empty
+  std::string label;  ///< of the object or product that the solid comes from, or empty
   MeshReport report;
-  int first_hex = 0;                    ///< number of its first cell in the mesh of all
+  int first_hex = 0;  ///< number of its first cell in the mesh of all
 };
 
 /// The report of a mesh of several solids, from those of each: counts and seconds are summed, the worst cells are those of the whole, by its numbers.

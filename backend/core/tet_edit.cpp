@@ -21,7 +21,8 @@ bool contains(const Cell& cell, int node) {
 
 }  // namespace
 
-TetEditor::TetEditor(TetMesh& mesh) : mesh_(mesh), tets_at_(mesh.points.size()), triangles_at_(mesh.points.size()), inner_at_(mesh.points.size()), parent_(mesh.triangles.size()) {
+TetEditor::TetEditor(TetMesh& mesh)
+    : mesh_(mesh), tets_at_(mesh.points.size()), triangles_at_(mesh.points.size()), inner_at_(mesh.points.size()), parent_(mesh.triangles.size()) {
   for (int t = 0; t < static_cast<int>(mesh.tets.size()); ++t) {
     for (int n : mesh.tets[t]) tets_at_[n].push_back(t);
   }

@@ -12,8 +12,8 @@ class TetEditor {
  public:
   explicit TetEditor(TetMesh& mesh);
 
-  /// Splits edge (a, b) at `point`; all tets, triangles and segments on it become two, those between solids too. Returns the new node. The new triangles are appended;
-  /// triangle_parent() tells where they come from. The classification of the new node is the segment's, the triangles' face, or the solid's.
+  /// Splits edge (a, b) at `point`; all tets, triangles and segments on it become two, those between solids too. Returns the new node. The new triangles are
+  /// appended; triangle_parent() tells where they come from. The classification of the new node is the segment's, the triangles' face, or the solid's.
   int split_edge(int a, int b, const Vec3& point);
 
   /// Would all tets round (a, b) keep a positive volume?

@@ -53,9 +53,8 @@ class Solver {
 
   /// Sets up the systems of the dimensions in `which`.
   void set_up(const std::array<UnionFind, 3>& groups, const std::vector<int>& which) {
-    for_chunks(static_cast<int>(which.size()), 1, threads_, [&](int i, int, int) {
-      system_[which[i]] = std::make_unique<Coordinate>(mesh_, elements_, groups[which[i]]);
-    });
+    for_chunks(static_cast<int>(which.size()), 1, threads_,
+               [&](int i, int, int) { system_[which[i]] = std::make_unique<Coordinate>(mesh_, elements_, groups[which[i]]); });
     for (int d : which) {
       if (!system_[d]->ok()) throw StageFailed("deform", std::string("the charts leave no room along ") + "xyz"[d]);
     }
@@ -114,8 +113,8 @@ bool merge_charts(const std::vector<Chart>& charts, int axis, double merge, Unio
 
 }  // namespace
 
-PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels, const std::vector<Chart>& features,
-                     const DeformOptions& options, const Monitor& monitor, DeformReport* report) {
+PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels, const std::vector<Chart>& features, const DeformOptions& options,
+                     const Monitor& monitor, DeformReport* report) {
   PolycuboidMap map;
   map.charts = find_charts(mesh.triangles, labels);
   map.charts.insert(map.charts.end(), features.begin(), features.end());

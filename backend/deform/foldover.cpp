@@ -11,14 +11,14 @@
 namespace polycube {
 namespace {
 
-constexpr double kLambda = 0.5;      // weight of keeping volume against keeping angles
-constexpr int kOuter = 12;           // epsilon updates
-constexpr int kInner = 25;           // L-BFGS steps between them
-constexpr int kPatience = 6;         // updates without fewer flips before it ends
-constexpr int kRunaway = 60;         // times the flips at the start: it has run away
+constexpr double kLambda = 0.5;  // weight of keeping volume against keeping angles
+constexpr int kOuter = 12;       // epsilon updates
+constexpr int kInner = 25;       // L-BFGS steps between them
+constexpr int kPatience = 6;     // updates without fewer flips before it ends
+constexpr int kRunaway = 60;     // times the flips at the start: it has run away
 // Largest epsilon. A tet without size costs 2 lambda / epsilon, a good one 3 + 2 lambda: at 0.25 shrinking the part to a point pays.
 constexpr double kWidest = 0.1;
-constexpr double kFall = 0.6;        // of epsilon from one update to the next, at least
+constexpr double kFall = 0.6;  // of epsilon from one update to the next, at least
 constexpr std::size_t kMemory = 6;
 
 class Problem {
@@ -143,8 +143,8 @@ class Problem {
   mutable std::vector<Eigen::Matrix<double, 3, 4>> force_;  // per tet, from one evaluation to the next
 };
 
-// L-BFGS with the inverse of the quadratic part as initial Hessian. That is linear: of the differences of gradients it is the difference of what it makes of the
-// gradients, so that one application a step does. Returns the steps made.
+// L-BFGS with the inverse of the quadratic part as initial Hessian. That is linear: of the differences of gradients it is the difference of what it makes of
+// the gradients, so that one application a step does. Returns the steps made.
 int descend(const Problem& problem, Vector& x, double epsilon, int steps, const Monitor& monitor) {
   struct Pair {
     Vector s, y, inverse_y;  // the last: preconditioned

@@ -10,8 +10,8 @@ namespace polycube {
 
 struct FoldoverReport {
   int iterations = 0;
-  int flipped = 0;      ///< tets with non-positive determinant left, those that no image can open not counted
-  int collapsed = 0;    ///< tets whose points are tied together by the charts so that no image has volume
+  int flipped = 0;    ///< tets with non-positive determinant left, those that no image can open not counted
+  int collapsed = 0;  ///< tets whose points are tied together by the charts so that no image has volume
 };
 
 /// Moves `image` (one value per unknown of each coordinate) to lower sum of volume * (tr(J^T J) / chi(det J)^(2/3) + lambda (det^2 + 1) / chi(det J)),

@@ -56,7 +56,8 @@ std::vector<int> aggregate(const SparseRows& matrix) {
   };
   const auto near = [&](Eigen::Index i, const auto& visit) {
     for (SparseRows::InnerIterator it(matrix, i); it; ++it) {
-      if (it.col() != i && !dense(it.col()) && std::abs(it.value()) > kWeak * std::sqrt(diagonal[i] * diagonal[it.col()])) visit(it.col(), std::abs(it.value()));
+      if (it.col() != i && !dense(it.col()) && std::abs(it.value()) > kWeak * std::sqrt(diagonal[i] * diagonal[it.col()]))
+        visit(it.col(), std::abs(it.value()));
     }
   };
   std::vector<int> group(static_cast<std::size_t>(n), -1);

@@ -53,10 +53,12 @@ class Namer {
       for (int f = 0; f < 6; ++f) {
         const auto& c = kHexFaces[f];
         const auto& hex = mesh_.hexes[h];
-        if (const auto at = wanted.find(sorted({hex[c[0]], hex[c[1]], hex[c[2]], hex[c[3]]})); at != wanted.end()) owners[at->second].push_back({h, kAbaqusFace[f]});
+        if (const auto at = wanted.find(sorted({hex[c[0]], hex[c[1]], hex[c[2]], hex[c[3]]})); at != wanted.end())
+          owners[at->second].push_back({h, kAbaqusFace[f]});
       }
     }
-    for (Sides& sides : owners) std::sort(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return std::pair(solid_[a[0]], a[0]) < std::pair(solid_[b[0]], b[0]); });
+    for (Sides& sides : owners)
+      std::sort(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return std::pair(solid_[a[0]], a[0]) < std::pair(solid_[b[0]], b[0]); });
     return owners;
   }
 

@@ -23,9 +23,7 @@ constexpr double kWanted = 0.3;
 /// What moves do not bring above this share is straightened. Any positive one would do for a solver; this one is out of rounding's reach.
 constexpr double kAccepted = 0.02;
 
-std::uint64_t edge_key(int a, int b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b));
-}
+std::uint64_t edge_key(int a, int b) { return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)); }
 
 /// The mesh's edges, ascending by key.
 class EdgeList {
@@ -65,8 +63,13 @@ struct Group {
 class Curving {
  public:
   Curving(const CadModel& model, FemMesh& mesh, const FemOptions& options, const Monitor& monitor)
-      : model_(model), mesh_(mesh), monitor_(monitor), threads_(thread_count(options.threads)), base_(mesh.corner_count), edges_(mesh.hexes), supports_(edges_.size()) {
-  }
+      : model_(model),
+        mesh_(mesh),
+        monitor_(monitor),
+        threads_(thread_count(options.threads)),
+        base_(mesh.corner_count),
+        edges_(mesh.hexes),
+        supports_(edges_.size()) {}
 
   void run() {
     number();

@@ -127,8 +127,7 @@ void complete(MeshReport& report, const FemMesh& mesh) {
   report.warnings.push_back(line);
 }
 
-FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options,
-                       const Monitor& monitor) {
+FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options, const Monitor& monitor) {
   monitor.progress("fem", 0);
   FemMesh fem;
   fem.order = options.order;

@@ -12,12 +12,12 @@ namespace polycube {
 
 /// Nodes and elements that stand for one CAD entity, or for one side of an interface between solids. 0-based, ascending.
 struct FemGroup {
-  CadRef entity;              ///< of an interface {2, 0}
+  CadRef entity;  ///< of an interface {2, 0}
   std::vector<int> nodes;
-  std::vector<int> elements;  ///< solid: hexes; face: quads; edge: segments; vertex: none
+  std::vector<int> elements;                ///< solid: hexes; face: quads; edge: segments; vertex: none
   std::vector<std::array<int, 2>> sides{};  ///< face: per element its hex on the group's side and the hex's face 0 to 5 as Abaqus' S1 to S6
-  int solid = 0;              ///< not 0: only what this solid has of an entity that several share, or of an interface
-  int other = 0;              ///< interface: the solid that `solid` touches there
+  int solid = 0;                            ///< not 0: only what this solid has of an entity that several share, or of an interface
+  int other = 0;                            ///< interface: the solid that `solid` touches there
 };
 
 /// "Face3"; of one solid "Solid1_Face3"; the faces of Solid1 that touch Solid2 "Solid1_Solid2".
@@ -30,18 +30,18 @@ inline constexpr std::array<int, 6> kAbaqusFace{5, 3, 2, 4, 0, 1};
 /// places of mid-edge nodes hold -1.
 struct FemMesh {
   int order = 1;
-  int corner_count = 0;                         ///< points before this one are corners, the others mid-edge nodes
-  std::vector<Vec3> points;                     ///< mm
+  int corner_count = 0;      ///< points before this one are corners, the others mid-edge nodes
+  std::vector<Vec3> points;  ///< mm
   std::vector<std::array<int, 20>> hexes;
-  std::vector<int> hex_block;                   ///< per hex: the block that it is part of; may be empty
-  std::vector<int> hex_solid;                   ///< per hex: number of its solid; empty for one solid
-  std::vector<std::array<int, 8>> quads;        ///< all boundary faces, outward; those between two solids with common nodes once
-  std::vector<int> quad_face;                   ///< per quad: CAD face
-  std::vector<std::array<int, 2>> quad_hex;     ///< per quad: its hex (between two solids that of the lower number), and the hex's face 0 to 5 as Abaqus' S1 to S6
-  std::vector<std::array<int, 3>> segments;     ///< start, end, middle
-  std::vector<int> segment_edge;                ///< per segment: CAD edge
-  std::vector<FemGroup> groups;                 ///< ascending by solid, other and entity; only entities that have a node
-  std::vector<int> straight_nodes;              ///< mid-edge nodes off the CAD, because an edge on it would spoil a cell; ascending
+  std::vector<int> hex_block;                ///< per hex: the block that it is part of; may be empty
+  std::vector<int> hex_solid;                ///< per hex: number of its solid; empty for one solid
+  std::vector<std::array<int, 8>> quads;     ///< all boundary faces, outward; those between two solids with common nodes once
+  std::vector<int> quad_face;                ///< per quad: CAD face
+  std::vector<std::array<int, 2>> quad_hex;  ///< per quad: its hex (between two solids that of the lower number), and the hex's face 0 to 5 as Abaqus' S1 to S6
+  std::vector<std::array<int, 3>> segments;  ///< start, end, middle
+  std::vector<int> segment_edge;             ///< per segment: CAD edge
+  std::vector<FemGroup> groups;              ///< ascending by solid, other and entity; only entities that have a node
+  std::vector<int> straight_nodes;           ///< mid-edge nodes off the CAD, because an edge on it would spoil a cell; ascending
 };
 
 struct FemOptions {
@@ -51,8 +51,7 @@ struct FemOptions {
 
 /// Mid-edge nodes go to the CAD edge or face they stand for, and stay in the middle of inner edges but where that would spoil a cell. Throws
 /// StageFailed("fem", ...) where a cell's Jacobian is not positive at an integration point even with straight edges.
-FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options,
-                       const Monitor& monitor);
+FemMesh build_fem_mesh(const CadModel& model, const HexMesh& mesh, const Association& association, const FemOptions& options, const Monitor& monitor);
 
 /// Completes the report of the mesh that the elements were built from: nodes, straightened edges, and a warning that names their CAD faces.
 void complete(MeshReport& report, const FemMesh& mesh);

@@ -43,8 +43,7 @@ std::vector<int> plus_one(std::vector<int> numbers) {
 
 std::string inp_text(const FemMesh& mesh, const std::string& element_type) {
   const bool quadratic = element_type.rfind("C3D20", 0) == 0;
-  if (quadratic != (mesh.order == 2))
-    throw InvalidInput("element type " + element_type + " does not fit a mesh of order " + std::to_string(mesh.order));
+  if (quadratic != (mesh.order == 2)) throw InvalidInput("element type " + element_type + " does not fit a mesh of order " + std::to_string(mesh.order));
   std::string text =
       "** Hexahedral mesh by Polycube. Lengths in mm.\n"
       "** CAD face 3: node set Face3, surface Face3_Surface, elements Face3_Elements; those whose side S1 is on it, Face3_S1.\n"

@@ -9,9 +9,9 @@ namespace {
 
 /// What the numbers of one part become in the whole.
 struct Shift {
-  int corners = 0;      ///< corner nodes in the part
-  int corner_base = 0;  ///< of its corner nodes
-  int mid_base = 0;     ///< of its mid-edge nodes
+  int corners = 0;                ///< corner nodes in the part
+  int corner_base = 0;            ///< of its corner nodes
+  int mid_base = 0;               ///< of its mid-edge nodes
   std::array<int, 4> elements{};  ///< by dimension, as in FemGroup
 
   int node(int p) const { return p < 0 ? p : p < corners ? p + corner_base : p - corners + mid_base; }
@@ -78,7 +78,8 @@ std::vector<FemGroup> shifted_groups(const FemMesh& part, const Shift& shift, in
   return groups;
 }
 
-void add_groups(FemMesh& whole, const std::vector<std::vector<FemGroup>>& groups_of, const std::vector<int>& numbers, const std::vector<Interface>& interfaces) {
+void add_groups(FemMesh& whole, const std::vector<std::vector<FemGroup>>& groups_of, const std::vector<int>& numbers,
+                const std::vector<Interface>& interfaces) {
   std::map<CadRef, int> solids_at;
   for (const auto& groups : groups_of)
     for (const FemGroup& group : groups) solids_at[group.entity] += group.solid == 0;

@@ -121,8 +121,7 @@ void write_med(const FemMesh& mesh, const std::string& path, const std::string& 
   const auto node_count = static_cast<med_int>(mesh.points.size());
   require(MEDmeshNodeCoordinateWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, 0, MED_FULL_INTERLACE, node_count, coordinates.data()), "nodes");
   const auto node_families = create_node_families(file, mesh);
-  require(MEDmeshEntityFamilyNumberWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, node_count, node_families.data()),
-          "families of nodes");
+  require(MEDmeshEntityFamilyNumberWr(file.id(), file.mesh(), MED_NO_DT, MED_NO_IT, MED_NODE, MED_NONE, node_count, node_families.data()), "families of nodes");
 
   std::vector<med_int> nodes;
   med_int family = 0;

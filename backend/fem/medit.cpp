@@ -10,16 +10,14 @@ std::string medit_text(const FemMesh& mesh) {
     if (group.entity.dim == 0)
       for (int node : group.nodes) corners.push_back(node);
   append(text, "Vertices\n%d\n", mesh.corner_count);
-  for (int p = 0; p < mesh.corner_count; ++p)
-    append(text, "%.17g %.17g %.17g 0\n", mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]);
+  for (int p = 0; p < mesh.corner_count; ++p) append(text, "%.17g %.17g %.17g 0\n", mesh.points[p][0], mesh.points[p][1], mesh.points[p][2]);
   if (!corners.empty()) {
     append(text, "Corners\n%zu\n", corners.size());
     for (int corner : corners) append(text, "%d\n", corner + 1);
   }
   if (!mesh.segments.empty()) {
     append(text, "Edges\n%zu\n", mesh.segments.size());
-    for (std::size_t s = 0; s < mesh.segments.size(); ++s)
-      append(text, "%d %d %d\n", mesh.segments[s][0] + 1, mesh.segments[s][1] + 1, mesh.segment_edge[s]);
+    for (std::size_t s = 0; s < mesh.segments.size(); ++s) append(text, "%d %d %d\n", mesh.segments[s][0] + 1, mesh.segments[s][1] + 1, mesh.segment_edge[s]);
   }
   append(text, "Quadrilaterals\n%zu\n", mesh.quads.size());
   for (std::size_t q = 0; q < mesh.quads.size(); ++q) {

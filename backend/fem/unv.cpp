@@ -75,8 +75,7 @@ std::string unv_text(const FemMesh& mesh) {
   }
   for (int q = 0; q < std::ssize(mesh.quads); ++q)
     append_element(text, quad_base + q, quadratic ? kParabolicShell : kShell, shell_nodes(mesh.quads[q], quadratic));
-  for (int h = 0; h < std::ssize(mesh.hexes); ++h)
-    append_element(text, h + 1, quadratic ? kParabolicBrick : kBrick, brick_nodes(mesh.hexes[h], quadratic));
+  for (int h = 0; h < std::ssize(mesh.hexes); ++h) append_element(text, h + 1, quadratic ? kParabolicBrick : kBrick, brick_nodes(mesh.hexes[h], quadratic));
   text += "    -1\n    -1\n  2467\n";
   int number = 0;
   for (const FemGroup& group : mesh.groups) {

@@ -15,9 +15,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
-constexpr double kShort = 0.15;       // an edge this share of its wanted length is as bad as a cell is good
+constexpr double kShort = 0.15;                      // an edge this share of its wanted length is as bad as a cell is good
 constexpr double kWideTurn = std::numbers::pi / 12;  // a mesh edge along which its curve turns by this is as bad as a cell is good
-constexpr double kTurnWeight = 4;                   // cells share a mesh edge
+constexpr double kTurnWeight = 4;                    // cells share a mesh edge
 constexpr int kFloorPower = 16;
 constexpr int kMemory = 8;            // pairs L-BFGS remembers
 constexpr double kFarTurn = 0.7;      // radians: an entity that turns by this under a node is no longer known to second order
@@ -245,8 +245,7 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       Vec3 sum = Vec3::Zero();
       for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
         const int at = slot_[graph_.corners[k] / 8];
-        if (at >= 0)
-          sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
+        if (at >= 0) sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
       }
       gradient[i] = entities_.along(v, sum, steps[i]);
     }

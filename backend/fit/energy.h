@@ -36,8 +36,8 @@ struct Energy {
 };
 
 struct CellRegion {
-  std::vector<int> hexes;  ///< over which is summed, ascending
-  std::vector<int> nodes;  ///< that may move, ascending
+  std::vector<int> hexes;       ///< over which is summed, ascending
+  std::vector<int> nodes;       ///< that may move, ascending
   std::vector<char> watched{};  ///< per hex of `hexes`; empty: none
 };
 
@@ -50,8 +50,8 @@ struct Turn {
   double angle = 0;            ///< radians
 };
 
-/// A corner of a boundary quad, as if a cell of height 1 stood on it: positive hexes alone let a face's nodes slide out over its border, and projection takes them back to where
-/// the hexes are inverted.
+/// A corner of a boundary quad, as if a cell of height 1 stood on it: positive hexes alone let a face's nodes slide out over its border, and projection takes
+/// them back to where the hexes are inverted.
 struct SkinCorner {
   std::array<int, 3> nodes{};       ///< the corner and its neighbours in the quad, counter-clockwise seen from outside
   std::array<double, 2> lengths{};  ///< wanted, mm

@@ -6,8 +6,7 @@
 
 namespace polycube {
 
-Entities::Entities(const CadModel& model, const Association& association, int threads)
-    : model_(model), association_(association), threads_(threads) {
+Entities::Entities(const CadModel& model, const Association& association, int threads) : model_(model), association_(association), threads_(threads) {
   const std::size_t nodes = association.point_cad.size();
   seeds_.assign(nodes, Vec2::Zero());
   seeded_.assign(nodes, 0);
@@ -61,8 +60,7 @@ double Entities::distance(int node, const Vec3& p) const {
   if (entity.dim == 0) return (model_.vertex(entity.id) - p).norm();
   if (entity.dim == 1) return model_.project_to_edge(entity.id, p).distance;
   double least = std::numeric_limits<double>::infinity();
-  for (int id : entity.dim == 2 ? association_.patches[entity.id] : std::vector<int>{})
-    least = std::min(least, model_.project_to_face(id, p).distance);
+  for (int id : entity.dim == 2 ? association_.patches[entity.id] : std::vector<int>{}) least = std::min(least, model_.project_to_face(id, p).distance);
   return entity.dim == 2 ? least : 0;
 }
 

@@ -71,8 +71,7 @@ bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vec
   const double value = corner_scaled_jacobian(points, hex, worst);
   const auto& next = kCornerNeighbours[worst];
   const auto on_edge = [&](int k) {
-    return std::binary_search(on_edges.begin(), on_edges.end(),
-                              Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
+    return std::binary_search(on_edges.begin(), on_edges.end(), Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
   };
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
@@ -254,8 +253,7 @@ class Fitting {
     }
     region.nodes = movable(region.hexes);
     std::erase_if(region.nodes, [&](int v) {
-      return std::any_of(graph_.corners.begin() + graph_.first[v], graph_.corners.begin() + graph_.first[v + 1],
-                         [&](int corner) { return !in[corner / 8]; });
+      return std::any_of(graph_.corners.begin() + graph_.first[v], graph_.corners.begin() + graph_.first[v + 1], [&](int corner) { return !in[corner / 8]; });
     });
     return region;
   }
@@ -373,8 +371,7 @@ class Fitting {
 
   // The same region, with an eye on the inside of doubtful cells.
   CellRegion watching(CellRegion region) const {
-    for (int h : region.hexes)
-      region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
+    for (int h : region.hexes) region.watched.push_back(suspect(mesh_.points, mesh_.hexes[h], scaled_jacobian(mesh_.points, mesh_.hexes[h])));
     return region;
   }
 
@@ -382,8 +379,8 @@ class Fitting {
   // before.
   bool square_up(const CellRegion& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
     const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
-    const DescentResult result = descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region,
-                                              chains_.turns(mesh_.points, entities_), {}, iterations);
+    const DescentResult result =
+        descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region, chains_.turns(mesh_.points, entities_), {}, iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
     entities_.project(mesh_.points, &region.nodes);
     monitor_.check();

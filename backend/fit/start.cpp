@@ -50,9 +50,7 @@ class ArcLength {
 
  private:
   static constexpr int kSamples = 257;
-  Vec3 tangent(const CadModel& model, int edge, int i) const {
-    return model.edge_tangent(edge, range_[0] + i * (range_[1] - range_[0]) / (kSamples - 1));
-  }
+  Vec3 tangent(const CadModel& model, int edge, int i) const { return model.edge_tangent(edge, range_[0] + i * (range_[1] - range_[0]) / (kSamples - 1)); }
   double place(double t) const { return std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kSamples - 1); }
   double at(const std::vector<double>& values, double t) const {
     const double x = place(t);
@@ -114,8 +112,7 @@ std::vector<double> spread(const std::vector<double>& gaps, double from, double 
   double sum = 0;
   for (double g : gaps) sum += std::max(g, least);
   std::vector<double> lengths{from};
-  for (double g : gaps)
-    lengths.push_back(lengths.back() + (sum > 0 ? std::max(g, least) / sum : 1.0 / static_cast<double>(gaps.size())) * (to - from));
+  for (double g : gaps) lengths.push_back(lengths.back() + (sum > 0 ? std::max(g, least) / sum : 1.0 / static_cast<double>(gaps.size())) * (to - from));
   lengths.back() = to;
   return lengths;
 }
@@ -190,8 +187,7 @@ void place_chain(const CadModel& model, const NodeChain& chain, const ArcLength&
     const auto wrap = [&](double s) { return s < 0 ? s + arc.total() : s > arc.total() ? s - arc.total() : s; };
     const auto lengths = spread(gaps, from, to);
     double sum = 0;
-    for (int i = 0; i < count; ++i)
-      sum += (model.edge_point(chain.edge, arc.parameter(wrap(lengths[i]))) - points[chain.nodes[i]]).squaredNorm();
+    for (int i = 0; i < count; ++i) sum += (model.edge_point(chain.edge, arc.parameter(wrap(lengths[i]))) - points[chain.nodes[i]]).squaredNorm();
     if (least >= 0 && sum >= least) continue;
     least = sum;
     best = lengths;
@@ -304,8 +300,7 @@ void Chains::keep_order(std::vector<Vec3>& points, Entities& entities) const {
   }
 }
 
-void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, const Chains& chains, Entities& entities,
-                  const Monitor& monitor) {
+void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, const Chains& chains, Entities& entities, const Monitor& monitor) {
   const std::vector<Vec3> before = mesh.points;
   for (int v : entities.boundary()) {
     if (entities.dimension(v) == 0) mesh.points[v] = model.vertex(entities.cad(v).id);

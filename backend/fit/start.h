@@ -29,7 +29,6 @@ class Chains {
 
 /// Puts vertices on vertices, lays the chains, lets the nodes of patches follow their border and projects them, then lets inner nodes
 /// follow the boundary.
-void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, const Chains& chains, Entities& entities,
-                  const Monitor& monitor);
+void place_on_cad(const CadModel& model, HexMesh& mesh, const Association& association, const Chains& chains, Entities& entities, const Monitor& monitor);
 
 }  // namespace polycube

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
 #include "core/options.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -13,8 +13,7 @@ namespace {
 /// Lattice of a block: (n + 1) points along each axis; a block of no extent has one layer and glues its two sides.
 class Lattice {
  public:
-  Lattice(const BlockComplex& complex, const std::vector<int>& value)
-      : extent_(complex.blocks.size()), first_(complex.blocks.size() + 1, 0) {
+  Lattice(const BlockComplex& complex, const std::vector<int>& value) : extent_(complex.blocks.size()), first_(complex.blocks.size() + 1, 0) {
     double cells = 0;
     for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
       for (int d = 0; d < 3; ++d) {

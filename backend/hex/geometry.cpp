@@ -81,8 +81,8 @@ class Placement {
     }
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       const Tet& tet = mesh_.tets[t];
-      for (const Triangle& f : {Triangle{tet[1], tet[2], tet[3]}, Triangle{tet[0], tet[2], tet[3]}, Triangle{tet[0], tet[1], tet[3]},
-                                Triangle{tet[0], tet[1], tet[2]}}) {
+      for (const Triangle& f :
+           {Triangle{tet[1], tet[2], tet[3]}, Triangle{tet[0], tet[2], tet[3]}, Triangle{tet[0], tet[1], tet[3]}, Triangle{tet[0], tet[1], tet[2]}}) {
         if (!on_boundary[f[0]] || !on_boundary[f[1]] || !on_boundary[f[2]]) continue;
         if (const auto at = triangle_of.find(key(f)); at != triangle_of.end()) owner_[at->second] = static_cast<int>(t);
       }
@@ -279,8 +279,7 @@ class Placement {
   }
 
   /// Nearest place to p on edges whose ends stand on all of `charts`; of those at hand before others.
-  std::optional<Vec3> on_edges(const std::vector<BoundaryEdge>& edges, const Vec3& p, const std::array<int, 3>& charts,
-                               double within) const {
+  std::optional<Vec3> on_edges(const std::vector<BoundaryEdge>& edges, const Vec3& p, const std::array<int, 3>& charts, double within) const {
     double nearest = kInfinity;
     bool nearest_near = false;
     std::optional<Vec3> result;
@@ -317,8 +316,7 @@ class Placement {
   bool corner_near(int point) const {
     return std::any_of(near_blocks_.begin(), near_blocks_.end(), [&](int b) {
       const auto& tets = complex_.blocks[b].tets;
-      return std::any_of(tets.begin(), tets.end(),
-                         [&](int t) { return std::count(mesh_.tets[t].begin(), mesh_.tets[t].end(), point) > 0; });
+      return std::any_of(tets.begin(), tets.end(), [&](int t) { return std::count(mesh_.tets[t].begin(), mesh_.tets[t].end(), point) > 0; });
     });
   }
 
@@ -397,8 +395,7 @@ class Placement {
 
 }  // namespace
 
-void place_nodes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, Connectivity& connectivity,
-                 const Monitor& monitor) {
+void place_nodes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, Connectivity& connectivity, const Monitor& monitor) {
   Placement(tets, map, blocks, connectivity).run(monitor);
 }
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "core/union_find.h"
 #include "core/error.h"
 #include "core/hexahedron.h"
+#include "core/union_find.h"
 #include "hex/connectivity.h"
 #include "hex/geometry.h"
 
@@ -18,8 +18,8 @@ std::array<int, 4> sorted(std::array<int, 4> v) {
 
 }  // namespace
 
-HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization,
-                       const Monitor& monitor, const Spacing& spacing) {
+HexComplex build_hexes(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const Quantization& quantization, const Monitor& monitor,
+                       const Spacing& spacing) {
   monitor.progress("hex", 0);
   if (quantization.value.size() != map.charts.size()) throw InvalidInput("the quantization does not have one integer per chart");
   Connectivity connectivity = connect(map, blocks, quantization.value, spacing);
@@ -63,8 +63,7 @@ HexReport check(const HexComplex& complex, const PolycuboidMap& map, const Block
     for (const auto& f : kHexFaces) faces.push_back({sorted({hex[f[0]], hex[f[1]], hex[f[2]], hex[f[3]]}), h});
   }
   for (const Quad& q : complex.quads) faces.push_back({sorted(q), -1});
-  std::sort(faces.begin(), faces.end(),
-            [](const Face& a, const Face& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.hex < b.hex; });
+  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.nodes != b.nodes ? a.nodes < b.nodes : a.hex < b.hex; });
   UnionFind cells(complex.mesh.hexes.size());
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t j = i;

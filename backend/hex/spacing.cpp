@@ -55,7 +55,8 @@ std::array<std::vector<int>, 2> layers_beside(const BlockComplex& complex, const
   for (const int b : layers.layers[layer].blocks) {
     for (const int s : {0, 1}) {
       int next = complex.blocks[b].neighbours[2 * d + s];
-      while (next >= 0 && value[complex.blocks[next].charts[d][0]] == value[complex.blocks[next].charts[d][1]]) next = complex.blocks[next].neighbours[2 * d + s];
+      while (next >= 0 && value[complex.blocks[next].charts[d][0]] == value[complex.blocks[next].charts[d][1]])
+        next = complex.blocks[next].neighbours[2 * d + s];
       if (next >= 0) beside[s].push_back(layers.of[next][d]);
     }
   }

@@ -21,8 +21,8 @@ BlockLayers find_layers(const BlockComplex& blocks);
 /// Layers on the low (0) and the high side (1) of one; those without extent are looked through. Ascending.
 std::array<std::vector<int>, 2> layers_beside(const BlockComplex& blocks, const BlockLayers& layers, int layer, const std::vector<int>& value);
 
-/// Lengths of `count` cells that are `length` together, from about `first` to about `last` at the ends (neither above the mean), growing from each end by at most `growth` a cell
-/// unless too few are there for that.
+/// Lengths of `count` cells that are `length` together, from about `first` to about `last` at the ends (neither above the mean), growing from each end by at
+/// most `growth` a cell unless too few are there for that.
 std::vector<double> graded(int count, double length, double first, double last, double growth);
 
 struct Spacing {

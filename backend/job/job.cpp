@@ -166,8 +166,7 @@ void save_labels(const std::string& folder, const LabelledPart& part, int face_c
 
 void limit_time(Monitor& monitor, const MeshOptions& options) {
   if (options.time_limit > 0)
-    monitor.set_deadline(Monitor::Clock::now() +
-                         std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
+    monitor.set_deadline(Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
 }
 
 /// CadModel for one solid, Assembly for as many as there are.

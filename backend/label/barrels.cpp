@@ -136,7 +136,8 @@ std::vector<BorderFunction> Barrels::borders(const RegionGraph& graph, int a, in
       if (other != cut) reach = std::min(reach, std::abs(turn(cut, other)) / 2);
     }
     const double sign = share_beyond(face, graph.regions[a], cut) > share_beyond(face, graph.regions[b], cut) ? 1 : -1;
-    result.push_back({a, b, [this, face, cut, sign, reach](int n) {
+    result.push_back({a, b,
+                      [this, face, cut, sign, reach](int n) {
                         const double beyond = turn(cut, angle(face, mesh_.points[n]));
                         return std::abs(beyond) < reach ? sign * std::sin(beyond) : kNoOpinion;
                       },

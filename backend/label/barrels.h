@@ -9,7 +9,8 @@ namespace polycube {
 
 class Barrels {
  public:
-  /// `divided`: per CAD face, whether it may have more labels than one. `room`: null, or where it is divided beside edges too. Keeps references to model and mesh.
+  /// `divided`: per CAD face, whether it may have more labels than one. `room`: null, or where it is divided beside edges too. Keeps references to model and
+  /// mesh.
   Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const std::vector<char>& divided, const Room* room);
 
   /// Number of the piece between two cuts that a triangle lies in; 0 on faces without cuts.

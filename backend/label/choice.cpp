@@ -20,8 +20,8 @@ constexpr std::array kCompactness{3.0, 0.3};
 
 // What the shape gives a choice of.
 struct Choices {
-  bool bends = false;                  // some face has one label with the wider widest_bend only
-  std::array<bool, 3> chamfers{};      // some plane is oblique to this axis and another
+  bool bends = false;              // some face has one label with the wider widest_bend only
+  std::array<bool, 3> chamfers{};  // some plane is oblique to this axis and another
   int frames = 1;
 };
 
@@ -79,7 +79,8 @@ bool has_twin(VariantIterator v, VariantIterator end) {
 }
 
 std::string describe(const LabelVariant& v) {
-  std::string text = "faces bend up to " + std::to_string(std::lround(v.widest_bend * 180 / std::numbers::pi)) + " degrees, strictness " + std::to_string(std::lround(v.strictness));
+  std::string text = "faces bend up to " + std::to_string(std::lround(v.widest_bend * 180 / std::numbers::pi)) + " degrees, strictness " +
+                     std::to_string(std::lround(v.strictness));
   if (!v.gradual) text += " at once";
   if (v.narrow_regions) text += ", narrow regions";
   if (!v.room) text += ", no room beside edges";
@@ -129,8 +130,10 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   options.narrow_regions = variant.narrow_regions;
   result.labelling = label(model_, result.mesh, options, monitor_, &result.report);
   result.faults = result.report.score;
-  for (const FeatureEdge& e : find_features(model_, result.mesh, result.labelling, left_out_, monitor_).edges) result.lost_features += e.capture == EdgeCapture::kLost;
-  monitor_.log("label: " + describe(variant) + ": score " + std::to_string(result.faults) + ", " + std::to_string(result.lost_features) + " edges without feature charts");
+  for (const FeatureEdge& e : find_features(model_, result.mesh, result.labelling, left_out_, monitor_).edges)
+    result.lost_features += e.capture == EdgeCapture::kLost;
+  monitor_.log("label: " + describe(variant) + ": score " + std::to_string(result.faults) + ", " + std::to_string(result.lost_features) +
+               " edges without feature charts");
   made_.push_back(std::move(result));
   return made_.back();
 }

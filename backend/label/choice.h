@@ -11,8 +11,8 @@ namespace polycube {
 
 /// What the labellings tried differ in; fields of LabelOptions.
 struct LabelVariant {
-  int frame = 0;            ///< one of those that the part offers
-  double compactness = 1;   ///< times that of the options
+  int frame = 0;           ///< one of those that the part offers
+  double compactness = 1;  ///< times that of the options
   bool room = LabelOptions{}.room;
   int chamfer_axis = LabelOptions{}.chamfer_axis;
   bool gradual = LabelOptions{}.gradual;
@@ -27,18 +27,19 @@ LabelVariant plain(LabelVariant v);
 
 struct Labelled {
   LabelVariant variant;
-  TetMesh mesh;             ///< cut along the borders of its labels
+  TetMesh mesh;  ///< cut along the borders of its labels
   Labelling labelling;
   LabelReport report;
-  double faults = 0;        ///< Violations::score
-  int lost_features = 0;    ///< CAD edges without feature charts
+  double faults = 0;      ///< Violations::score
+  int lost_features = 0;  ///< CAD edges without feature charts
 };
 
 /// The labellings of one tet mesh, each made when it is first asked for.
 class LabelChoice {
  public:
   /// `frames`: at least one, the best first; those of `options` do not count. `left_out` as for find_features. Keeps references to model, mesh and monitor.
-  LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out, const Monitor& monitor);
+  LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out,
+              const Monitor& monitor);
 
   /// All variants, those to try first in front. The first without faults ends the search: the better of it and the one that differs from it in widest_bend
   /// only comes first, then the other, then those with other frames, chamfers and compactness, then those that repair otherwise. Where each has faults, those

@@ -40,8 +40,7 @@ struct Cutter {
 
   void cut(int face, int i, const std::function<double(const Vec3&)>& value, const Monitor& monitor) {
     std::vector<BorderFunction> borders;
-    for (int p = 0; p < 1 << i; ++p)
-      borders.push_back({8 * face + p + (1 << i), 8 * face + p, [&](int n) { return value(mesh.points[n]); }});
+    for (int p = 0; p < 1 << i; ++p) borders.push_back({8 * face + p + (1 << i), 8 * face + p, [&](int n) { return value(mesh.points[n]); }});
     region = cut_along(mesh, region, borders, monitor);
   }
 };
@@ -91,9 +90,7 @@ std::array<int, 4> quarter_labels(const Cutter& cutter, int face, const Vec3& ax
 }
 
 // Where two parts meet: away from the axis that neither of them faces.
-Vec3 ray(const Vec3& normal, int axis) {
-  return (normal[axis] < 0 ? 1 : -1) * (Vec3::Unit(axis) - normal[axis] * normal);
-}
+Vec3 ray(const Vec3& normal, int axis) { return (normal[axis] < 0 ? 1 : -1) * (Vec3::Unit(axis) - normal[axis] * normal); }
 
 }  // namespace
 

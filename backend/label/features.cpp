@@ -201,8 +201,7 @@ class Finder {
 
 // Does the edge begin at the vertex, or at one that a tiny edge joins to it?
 bool is_end(const CadModel& model, int edge, int vertex) {
-  return vertex == model.edge(edge).vertices[0] ||
-         (model.vertex(vertex) - model.edge_point(edge, model.edge_range(edge)[0])).norm() <= 1e-5 * model.diagonal();
+  return vertex == model.edge(edge).vertices[0] || (model.vertex(vertex) - model.edge_point(edge, model.edge_range(edge)[0])).norm() <= 1e-5 * model.diagonal();
 }
 
 }  // namespace
@@ -249,8 +248,7 @@ std::vector<char> smooth_edges(const CadModel& model, double angle, const std::v
   return smooth;
 }
 
-Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out,
-                       const Monitor& monitor) {
+Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out, const Monitor& monitor) {
   const auto chains = edge_chains(model, mesh);
   std::vector<int> order;
   for (const int e : model.edges()) {

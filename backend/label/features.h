@@ -20,13 +20,13 @@ struct FeatureEdge {
 };
 
 struct FeatureChart {
-  int edge = 0;   ///< CAD edge
-  Chart chart;    ///< sign 0; axis and nodes filled
+  int edge = 0;  ///< CAD edge
+  Chart chart;   ///< sign 0; axis and nodes filled
 };
 
 struct Features {
   std::vector<FeatureChart> charts;
-  std::vector<FeatureEdge> edges;   ///< one per CAD edge that is neither seam nor degenerate
+  std::vector<FeatureEdge> edges;  ///< one per CAD edge that is neither seam nor degenerate
 };
 
 /// The mesh points along a CAD edge from its start to its end vertex, ordered; empty where the mesh has no segments there.
@@ -39,7 +39,6 @@ double bend(const CadEdge& edge);
 std::vector<char> smooth_edges(const CadModel& model, double angle, const std::vector<int>& keep_faces = {});
 
 /// `left_out`: per CAD edge number, those that get no feature chart.
-Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out,
-                       const Monitor& monitor);
+Features find_features(const CadModel& model, const TetMesh& mesh, const Labelling& labelling, const std::vector<char>& left_out, const Monitor& monitor);
 
 }  // namespace polycube

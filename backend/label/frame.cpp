@@ -148,8 +148,9 @@ void check_labels(const TetMesh& mesh, const Mat3& to_frame, const FaceLabels& l
       if (spread.possible(l)) can += (can.empty() ? "it can be " : " or ") + std::string(label_name(l));
     }
     const std::string wanted = label_name(label);
-    throw InvalidInput("--label: " + name({2, face}) + " cannot be " + wanted + (spread.towards(label) ? " all over, it turns against it" : ", it does not face that way") +
-                       "; " + (can.empty() ? "it turns too far for any one label" : can));
+    throw InvalidInput("--label: " + name({2, face}) + " cannot be " + wanted +
+                       (spread.towards(label) ? " all over, it turns against it" : ", it does not face that way") + "; " +
+                       (can.empty() ? "it turns too far for any one label" : can));
   }
 }
 

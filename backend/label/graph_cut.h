@@ -11,10 +11,10 @@ namespace polycube {
 inline constexpr double kForbidden = 1e9;
 
 struct CutProblem {
-  std::vector<std::array<double, 6>> data;   ///< cost of each label per node; >= kForbidden forbids it
+  std::vector<std::array<double, 6>> data;  ///< cost of each label per node; >= kForbidden forbids it
   struct Link {
     int a, b;
-    double weight;                           ///< cost when the labels differ; twice that for opposite labels of one axis
+    double weight;  ///< cost when the labels differ; twice that for opposite labels of one axis
   };
   std::vector<Link> links;
 };

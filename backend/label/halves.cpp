@@ -43,7 +43,8 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
     if (s_.has_tip(f)) {
       half_[t] = s_.tips->upper[t];
     } else if (s_.cuts[f].thirds) {
-      half_[t] = third_at(s_.frame * s_.model.face(f).axis, s_.frame * ((s_.mesh.points[tri[0]] + s_.mesh.points[tri[1]] + s_.mesh.points[tri[2]]) / 3) - centre_[f]);
+      half_[t] =
+          third_at(s_.frame * s_.model.face(f).axis, s_.frame * ((s_.mesh.points[tri[0]] + s_.mesh.points[tri[1]] + s_.mesh.points[tri[2]]) / 3) - centre_[f]);
     } else if (sloping(f)) {
       half_[t] = (along(f, tri[0]) + along(f, tri[1]) + along(f, tri[2])) / 3 > middle_[f][barrel(f) ? labels[t] : 0];
     } else if (s_.whole[f] && !s_.flat[f]) {
@@ -55,9 +56,7 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
 }
 
 std::function<double(int)> Halves::border(int face, int label) const {
-  return [this, face, middle = middle_[face][barrel(face) ? static_cast<std::size_t>(label) : 0]](int n) {
-    return along(face, n) - middle;
-  };
+  return [this, face, middle = middle_[face][barrel(face) ? static_cast<std::size_t>(label) : 0]](int n) { return along(face, n) - middle; };
 }
 
 std::function<double(int)> Halves::third_border(int face, int p, int q) const {
@@ -130,7 +129,8 @@ void Halves::find_barrels() {
   barrel_.assign(s_.model.face_count() + 1, 0);
   for (const int f : s_.model.faces()) {
     const CadFace& face = s_.model.face(f);
-    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine) continue;
+    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine)
+      continue;
     barrel_[f] = f;
     for (int e : face.edges) {
       const auto& [a, b] = s_.model.edge(e).faces;

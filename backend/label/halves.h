@@ -12,12 +12,12 @@ struct FaceShapes {
   const CadModel& model;
   const TetMesh& mesh;
   const Mat3& frame;
-  const std::vector<Vec3>& normal;  ///< per triangle, in the frame
-  const std::vector<char>& whole;   ///< per CAD face: one label for all of it
-  const std::vector<char>& flat;    ///< per CAD face: it hardly bends
-  const std::vector<FaceCut>& cuts; ///< per CAD face: how an oblique plane is divided, zero for the usual way
-  const Tips* tips;                 ///< null: faces that end in a point are treated as others
-  const Room* room;                 ///< null, or strips along barrels, which are not halved then
+  const std::vector<Vec3>& normal;   ///< per triangle, in the frame
+  const std::vector<char>& whole;    ///< per CAD face: one label for all of it
+  const std::vector<char>& flat;     ///< per CAD face: it hardly bends
+  const std::vector<FaceCut>& cuts;  ///< per CAD face: how an oblique plane is divided, zero for the usual way
+  const Tips* tips;                  ///< null: faces that end in a point are treated as others
+  const Room* room;                  ///< null, or strips along barrels, which are not halved then
 
   bool has_tip(int face) const { return tips && !tips->axis[face].isZero(); }
 };

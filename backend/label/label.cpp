@@ -50,11 +50,11 @@ struct Setup {
   std::vector<FaceCut> cuts;  // per CAD face: how it is divided, zero for the usual way
   const Room* room;           // null: none beside edges on barrels
   Mat3 frame;
-  std::vector<Vec3> normal;   // per triangle, in the frame, as the data term shall see it
+  std::vector<Vec3> normal;  // per triangle, in the frame, as the data term shall see it
   std::vector<double> area;
-  std::vector<char> whole;    // per CAD face: one label for all of it
-  std::vector<char> flat;     // per CAD face: it hardly bends
-  double scale;               // mm
+  std::vector<char> whole;  // per CAD face: one label for all of it
+  std::vector<char> flat;   // per CAD face: it hardly bends
+  double scale;             // mm
 
   bool has_tip(int face) const { return tips && !tips->axis[face].isZero(); }
 };
@@ -107,8 +107,8 @@ double change_weight(double angle, bool same_face) {
   return std::abs(angle - std::numbers::pi) > kSharpBend ? 0.1 : 0.5;
 }
 
-Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame,
-              std::vector<FaceCut> face_cuts, const Room* room) {
+Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame, std::vector<FaceCut> face_cuts,
+              const Room* room) {
   Setup s{model, mesh, options, tips, std::move(face_cuts), room, frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
   const auto n = mesh.triangles.size();
   s.normal.resize(n);
@@ -323,7 +323,8 @@ std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& jo
     Vec3 direction = Vec3::Zero();
     direction[label_axis(l)] += label_sign(l);
     direction[label_axis(m)] -= label_sign(m);
-    result.push_back({a, b, [&s, face, direction](int n) {
+    result.push_back({a, b,
+                      [&s, face, direction](int n) {
                         const FacePoint at = s.model.project_to_face(face, s.mesh.points[n]);
                         return as_seen(s, face, s.frame * s.model.face_normal(face, at.uv)).dot(direction);
                       },
@@ -436,8 +437,8 @@ double cost(const Plan& plan) { return region_energy(plan.graph, plan.label); }
 //
 // A labelling that stays invalid may lack a place to change its label: faces with tips are divided below the tip, then oblique planes and bent faces beside the
 // violations in other ways, one after the other, as long as that leaves fewer violations.
-std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Room& room, Tips& tips,
-                                std::unique_ptr<Plan>& spare, const Monitor& monitor) {
+std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, Room& room, Tips& tips, std::unique_ptr<Plan>& spare,
+                                const Monitor& monitor) {
   const Mat3 frame = options.frame_given ? options.frame : find_frame(model);
   const std::vector<FaceCut> usual(static_cast<std::size_t>(model.face_count()) + 1);
   std::unique_ptr<Plan> best = make_plan(model, mesh, options, nullptr, frame, usual, nullptr, monitor);
@@ -524,8 +525,15 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
               std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
   if (report) {
-    *report = {static_cast<int>(graph.regions.size()), static_cast<int>(find_charts(mesh.triangles, result.label).size()), left.opposite_arcs, left.poor_loops,
-               left.bad_corners, left.turning_points, left.bad_turns, left.score, cost(*plan)};
+    *report = {static_cast<int>(graph.regions.size()),
+               static_cast<int>(find_charts(mesh.triangles, result.label).size()),
+               left.opposite_arcs,
+               left.poor_loops,
+               left.bad_corners,
+               left.turning_points,
+               left.bad_turns,
+               left.score,
+               cost(*plan)};
   }
   monitor.progress("label", 1);
   return result;

@@ -7,8 +7,8 @@
 
 namespace polycube {
 
-/// Charts of one axis each of which has to lie beyond the one before it, and the first beyond the last. A sign that no map has that, not a proof: where boundaries wind about the axis one may exist. A ramp round a hole, flat in the
-/// image, whose ends a step joins is the shortest, one chart.
+/// Charts of one axis each of which has to lie beyond the one before it, and the first beyond the last. A sign that no map has that, not a proof: where
+/// boundaries wind about the axis one may exist. A ramp round a hole, flat in the image, whose ends a step joins is the shortest, one chart.
 struct RisingLoop {
   int axis = 0;
   std::vector<int> charts;  ///< regions of the graph; empty: there is none

@@ -7,21 +7,21 @@ namespace polycube {
 
 /// A connected set of triangles of one CAD face that keep one label.
 struct Region {
-  int face = 0;                          ///< CAD face
-  double area = 0;                       ///< mm^2
-  std::array<double, 6> data{};          ///< cost of each label
+  int face = 0;                  ///< CAD face
+  double area = 0;               ///< mm^2
+  std::array<double, 6> data{};  ///< cost of each label
   std::vector<int> triangles;
 };
 
 /// A maximal chain of mesh edges between two regions, `left` on its left seen from outside.
 struct Arc {
   int left = 0, right = 0;
-  std::vector<int> nodes;                ///< mesh points in order; first == last for a closed chain
-  std::vector<char> cad_dim;             ///< per node: 0 at a CAD vertex, 1 on a CAD edge, 2 inside a face
-  double length = 0;                     ///< mm
-  double angle = 0;                      ///< mean interior dihedral angle, radians
-  double weight = 0;                     ///< cost per mm of a label change here
-  int start = -1, end = -1;              ///< junctions; -1 for a closed chain
+  std::vector<int> nodes;     ///< mesh points in order; first == last for a closed chain
+  std::vector<char> cad_dim;  ///< per node: 0 at a CAD vertex, 1 on a CAD edge, 2 inside a face
+  double length = 0;          ///< mm
+  double angle = 0;           ///< mean interior dihedral angle, radians
+  double weight = 0;          ///< cost per mm of a label change here
+  int start = -1, end = -1;   ///< junctions; -1 for a closed chain
 };
 
 /// A mesh point where three or more regions meet.

@@ -80,8 +80,8 @@ double region_energy(const RegionGraph& g, const std::vector<int>& label) {
   return sum;
 }
 
-std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, double weight,
-                        int threads, const Monitor& monitor) {
+std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> label, double noise, double weight, int threads,
+                        const Monitor& monitor) {
   const auto near = adjacency(graph);
   const ViolationFinder finder(graph, points, noise);
   Violations violations = finder.find(label);
@@ -113,7 +113,8 @@ std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& point
       }
     });
     // The first of equals, whichever thread found it.
-    const Best best = *std::min_element(found.begin(), found.end(), [](const Best& a, const Best& b) { return std::pair(a.cost, a.move) < std::pair(b.cost, b.move); });
+    const Best best =
+        *std::min_element(found.begin(), found.end(), [](const Best& a, const Best& b) { return std::pair(a.cost, a.move) < std::pair(b.cost, b.move); });
     if (best.move < 0) break;
     for (int r : moves[best.move].regions) label[r] = moves[best.move].label;
     violations = finder.find(label);

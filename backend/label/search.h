@@ -13,7 +13,7 @@ double region_energy(const RegionGraph& graph, const std::vector<int>& region_la
 /// charts and all regions round a bad corner.
 /// Never returns a labelling with a higher score than it was given. Deterministic; ends when no move helps.
 /// `weight`: what one point of Violations::score is worth in energy.
-std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise, double weight,
-                        int threads, const Monitor& monitor);
+std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& points, std::vector<int> region_label, double noise, double weight, int threads,
+                        const Monitor& monitor);
 
 }  // namespace polycube

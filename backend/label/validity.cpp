@@ -102,8 +102,8 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
 
-// Two CAD edges that meet in a tip, both less than 60 degrees (guess) from the axis of the boundary that goes forth on one and back on the other: no map opens that, however
-// short they are. Smooth edges that pass their turning point by a little run flat there.
+// Two CAD edges that meet in a tip, both less than 60 degrees (guess) from the axis of the boundary that goes forth on one and back on the other: no map opens
+// that, however short they are. Smooth edges that pass their turning point by a little run flat there.
 constexpr double kSteep = 0.5;
 // Of the noise, what a boundary must go back at such a tip at least: rounding is no reversal.
 constexpr double kRealShare = 0.01;
@@ -124,8 +124,8 @@ class ViolationFinder::Check {
     for (std::size_t r = 0; r < hit_.size(); ++r) {
       if (hit_[r]) result_.regions.push_back(static_cast<int>(r));
     }
-    result_.score = 10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points +
-                    6.0 * result_.bad_turns;
+    result_.score =
+        10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points + 6.0 * result_.bad_turns;
     return std::move(result_);
   }
 
@@ -323,10 +323,10 @@ class ViolationFinder::Check {
   const RegionGraph& g_;
   const std::vector<int>& label_;
   std::vector<char> corner_;
-  std::vector<int> chart_;                   // per region: the least region of its chart
-  std::vector<int> turns_, loops_, unknown_; // per chart
+  std::vector<int> chart_;                    // per region: the least region of its chart
+  std::vector<int> turns_, loops_, unknown_;  // per chart
   std::vector<Vec3> directions_;
-  std::vector<char> hit_;                    // per region
+  std::vector<char> hit_;  // per region
   Violations result_;
 };
 

@@ -43,7 +43,7 @@ class ViolationFinder {
   static Course course(const std::vector<Vec3>& points, const Arc& arc, int axis);
 
   std::vector<std::array<Course, 3>> course_;  // per arc and axis
-  std::vector<int> place_;                                  // per dart: index among those of the junction where it starts
+  std::vector<int> place_;                     // per dart: index among those of the junction where it starts
 };
 
 /// The same for one labelling.

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kWidest = 150 * kPi / 180;  // a cell this wide is flat
-constexpr double kFlatInside = 35;        // of a flat inner corner, over its sine: some 100 where the CAD edge turns by 20 degrees, 1200 where it is straight
+constexpr double kFlatInside = 35;  // of a flat inner corner, over its sine: some 100 where the CAD edge turns by 20 degrees, 1200 where it is straight
 
 double dihedral_angle(const CadModel& model, int id, const Vec3& p) {
   const CadEdge& edge = model.edge(id);
@@ -83,8 +83,7 @@ class SegmentFinder {
   std::vector<std::array<int, 3>> ends_;  // node, neighbour along a CAD edge, edge
 };
 
-double corner_angle(const CadModel& model, const HexMesh& mesh, const Association& association, const Sector& sector, int first_edge,
-                    int last_edge) {
+double corner_angle(const CadModel& model, const HexMesh& mesh, const Association& association, const Sector& sector, int first_edge, int last_edge) {
   const int vertex = association.point_cad[sector.node].id;
   const double reach = 0.3 * std::min(model.edge(first_edge).length, model.edge(last_edge).length);
   const Leaving from = leave(model, first_edge, vertex, mesh.points[sector.first], reach);
@@ -113,8 +112,7 @@ double angle_cost(int cells, double angle) {
   return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0) + folded;
 }
 
-std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,
-                                    const std::vector<BoundaryEdge>& edges) {
+std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges) {
   std::vector<double> angles(edges.size(), kPi);
   for (std::size_t s = 0; s < association.segments.size(); ++s) {
     const auto [a, b] = association.segments[s];
@@ -124,8 +122,7 @@ std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, 
   return angles;
 }
 
-std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association,
-                                 const std::vector<char>& wanted) {
+std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& wanted) {
   // Corners of quads: node, neighbour where the corner begins, neighbour where it ends (counter-clockwise), quad.
   std::vector<std::array<int, 4>> corners;
   for (int q = 0; q < static_cast<int>(association.quads.size()); ++q) {
@@ -142,8 +139,7 @@ std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, con
     while (j < corners.size() && corners[j][0] == corners[i][0]) ++j;
     const int node = corners[i][0];
     const auto beginning_at = [&](int neighbour) {
-      return std::find_if(corners.begin() + static_cast<long>(i), corners.begin() + static_cast<long>(j),
-                          [&](const auto& c) { return c[1] == neighbour; });
+      return std::find_if(corners.begin() + static_cast<long>(i), corners.begin() + static_cast<long>(j), [&](const auto& c) { return c[1] == neighbour; });
     };
     const auto none = corners.begin() + static_cast<long>(j);
     bool complete = true, has_edge = false;

@@ -16,22 +16,20 @@ inline constexpr double kOneCell = 32 * std::numbers::pi / 180;
 double angle_cost(int cells, double angle);
 
 /// Interior dihedral angle of the CAD at each boundary edge, radians: pi where both quads lie on one patch without a CAD edge between.
-std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association,
-                                    const std::vector<BoundaryEdge>& edges);
+std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges);
 
 /// Consecutive boundary quads round a node between two CAD edges.
 struct Sector {
   int node;
   int patch;
   int first,
-      last;  ///< the neighbours of the node on the CAD edges that bound it, counter-clockwise seen from outside; -1 if there is no CAD edge
+      last;      ///< the neighbours of the node on the CAD edges that bound it, counter-clockwise seen from outside; -1 if there is no CAD edge
   int quads;     ///< how many
   double angle;  ///< of the CAD between the two edges, radians; 2 pi without an edge
 };
 
 /// The sectors at all nodes for which `wanted` is set and which the listed quads surround completely, by node.
-std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association,
-                                 const std::vector<char>& wanted);
+std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& wanted);
 
 /// What the corners of hexes at the wanted nodes cost whose two sides are CAD edges with an inner face between them: no move of nodes changes
 /// their angle, and no sector tells of them.

@@ -60,8 +60,8 @@ struct Surface {
 
 // A CAD edge at one of its vertices.
 struct Spoke {
-  int edge = 0, end = 0;   // end 0: where the edge's chain begins
-  int quads_to_next = 1;   // that belong between it and the next spoke, counter-clockwise seen from outside
+  int edge = 0, end = 0;  // end 0: where the edge's chain begins
+  int quads_to_next = 1;  // that belong between it and the next spoke, counter-clockwise seen from outside
 };
 
 struct Path {
@@ -293,7 +293,8 @@ class Associator {
         // A vertex on a chart boundary or corner belongs on one of the mesh.
         const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
         const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
-        candidates.push_back({d + 2.0 * static_cast<double>(missing) + kSurplusPrice * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
+        candidates.push_back(
+            {d + 2.0 * static_cast<double>(missing) + kSurplusPrice * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
       }
     }
     std::sort(candidates.begin(), candidates.end(),
@@ -676,20 +677,20 @@ class Associator {
   const AssociateOptions& options_;
   const Monitor& monitor_;
   Surface surface_;
-  std::vector<int> nodes_;                       // boundary nodes
-  std::vector<std::set<int>> node_charts_;       // per mesh node
-  std::vector<std::set<int>> tet_charts_;        // per tet mesh point
+  std::vector<int> nodes_;                  // boundary nodes
+  std::vector<std::set<int>> node_charts_;  // per mesh node
+  std::vector<std::set<int>> tet_charts_;   // per tet mesh point
   std::vector<int> chart_of_triangle_;
   std::unordered_map<std::uint64_t, int> triangle_left_;
-  std::vector<int> real_;                        // CAD edges that count
-  std::vector<int> tips_;                        // CAD vertices without such edges that count all the same
+  std::vector<int> real_;  // CAD edges that count
+  std::vector<int> tips_;  // CAD vertices without such edges that count all the same
   std::vector<char> lost_;
   std::vector<int> vertex_node_;
-  std::vector<int> owner_;                       // per mesh node: 0 free, -v vertex, e edge
+  std::vector<int> owner_;  // per mesh node: 0 free, -v vertex, e edge
   std::vector<Path> path_;
-  std::set<std::pair<int, int>> taken_;          // mesh edges on paths: two may join the same vertices
-  std::vector<std::vector<Spoke>> spokes_;       // per CAD vertex, counter-clockwise
-  std::vector<int> failures_;                    // per CAD edge: rounds without a path
+  std::set<std::pair<int, int>> taken_;     // mesh edges on paths: two may join the same vertices
+  std::vector<std::vector<Spoke>> spokes_;  // per CAD vertex, counter-clockwise
+  std::vector<int> failures_;               // per CAD edge: rounds without a path
 };
 
 }  // namespace

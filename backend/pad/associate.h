@@ -12,16 +12,16 @@ namespace polycube {
 
 /// The boundary of a hex mesh as the hex stage leaves it.
 struct HexBoundary {
-  const std::vector<Vec3>& points;         ///< first geometry, near the CAD surface for boundary nodes
-  const std::vector<Quad>& quads;          ///< outward
+  const std::vector<Vec3>& points;  ///< first geometry, near the CAD surface for boundary nodes
+  const std::vector<Quad>& quads;   ///< outward
   const std::vector<int>& quad_chart;
-  const std::vector<int>& quad_triangle;   ///< a boundary triangle of the tet mesh near each quad
+  const std::vector<int>& quad_triangle;  ///< a boundary triangle of the tet mesh near each quad
 };
 
 struct AssociateOptions {
-  std::vector<std::vector<int>> edge_chains;   ///< per CAD edge number (entry 0 unused): tet mesh points along it, empty to leave the edge out
-  double size = 0;                             ///< typical edge length, mm
-  std::vector<char> ignored;                   ///< per CAD edge number: to be left out, and no loss; may be empty
+  std::vector<std::vector<int>> edge_chains;  ///< per CAD edge number (entry 0 unused): tet mesh points along it, empty to leave the edge out
+  double size = 0;                            ///< typical edge length, mm
+  std::vector<char> ignored;                  ///< per CAD edge number: to be left out, and no loss; may be empty
 };
 
 /// Chooses a node for every CAD vertex and a path of mesh edges for every CAD edge with a chain, such that the quads fall into one region per

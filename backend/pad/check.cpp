@@ -10,9 +10,7 @@ namespace {
 
 using Faults = std::vector<std::string>;
 
-std::string at(const char* what, int index) {
-  return std::string(what) + " " + std::to_string(index);
-}
+std::string at(const char* what, int index) { return std::string(what) + " " + std::to_string(index); }
 
 bool same_cycle(const Quad& a, const Quad& b) {
   for (int shift = 0; shift < 4; ++shift) {
@@ -111,8 +109,7 @@ void check_classes(const Association& a, const std::vector<BoundaryEdge>& edges,
   }
   std::sort(segments.begin(), segments.end());
   for (std::size_t s = 1; s < segments.size(); ++s) {
-    if (segments[s][0] == segments[s - 1][0] && segments[s][1] == segments[s - 1][1])
-      faults.push_back(at("two segments on one edge at node", segments[s][0]));
+    if (segments[s][0] == segments[s - 1][0] && segments[s][1] == segments[s - 1][1]) faults.push_back(at("two segments on one edge at node", segments[s][0]));
   }
   std::vector<std::vector<int>> node_edges(nodes);
   for (const auto& s : segments) {
@@ -125,8 +122,7 @@ void check_classes(const Association& a, const std::vector<BoundaryEdge>& edges,
     const auto it = std::lower_bound(segments.begin(), segments.end(), std::array{e.a, e.b}, key_less);
     const bool listed = it != segments.end() && (*it)[0] == e.a && (*it)[1] == e.b;
     found += listed;
-    if (!listed && a.quad_patch[e.quads[0]] != a.quad_patch[e.quads[1]])
-      faults.push_back(at("two patches meet without a segment at node", e.a));
+    if (!listed && a.quad_patch[e.quads[0]] != a.quad_patch[e.quads[1]]) faults.push_back(at("two patches meet without a segment at node", e.a));
   }
   if (found != segments.size()) faults.push_back("segment that is no boundary edge");
   std::vector<std::vector<int>> node_patches(nodes);
@@ -141,8 +137,7 @@ void check_classes(const Association& a, const std::vector<BoundaryEdge>& edges,
     if (cad.dim == 1 && node_edges[v] != std::vector<int>{cad.id, cad.id}) faults.push_back(at("chain of a CAD edge broken at node", v));
     if (cad.dim == 2) {
       const auto& p = node_patches[v];
-      if (std::any_of(p.begin(), p.end(), [&](int patch) { return patch != cad.id; }))
-        faults.push_back(at("quads of another patch at node", v));
+      if (std::any_of(p.begin(), p.end(), [&](int patch) { return patch != cad.id; })) faults.push_back(at("quads of another patch at node", v));
       if (!node_edges[v].empty()) faults.push_back(at("segment at a node inside a patch:", v));
     }
   }

@@ -49,8 +49,7 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
       Choice other = ringed(RingWay::kThroughCusps);
       if (other.gain > std::max(choice.gain, through_cusps ? through_cusps->gain : 0)) through_cusps = std::move(other);
     }
-    const bool known = std::any_of(choices.begin(), choices.end(),
-                                   [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
+    const bool known = std::any_of(choices.begin(), choices.end(), [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
     if (!known) choices.push_back(std::move(choice));
     if (plan == LayerPlan::kEach && layers.regions == 0) break;  // nothing for the other plans to do
   }

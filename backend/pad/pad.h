@@ -26,8 +26,7 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
 
 /// The first of pad_choices. Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a
 /// cell inside); fit follows.
-PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
-               PadReport* report = nullptr);
+PaddedMesh pad(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor, PadReport* report = nullptr);
 
 /// Recomputes nothing: the list of what is wrong with the pair (non-manifold boundary, quads and point classes that contradict, ...).
 std::vector<std::string> check(const HexMesh& mesh, const Association& association);

@@ -13,8 +13,9 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kBadSector = 0.9;  // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
-constexpr double kFlat = 500;  // half of what a flat cell costs
-constexpr double kStraightAngle = 175 * kPi / 180;  // measured: at corners of 169 degrees between arcs a sheet round the node alone makes the cells beside it worse (i09)
+constexpr double kFlat = 500;       // half of what a flat cell costs
+constexpr double kStraightAngle =
+    175 * kPi / 180;  // measured: at corners of 169 degrees between arcs a sheet round the node alone makes the cells beside it worse (i09)
 constexpr double kLeastGain = 0.3;
 constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
 constexpr int kReach = 4;                   // border nodes on each side of a bad one, for the shortest sheets
@@ -206,9 +207,7 @@ Stretch trimmed(const Stretch& stretch) {
   }
   first = std::max(0, first - 2);
   last = std::min(count - 1, last + 2);
-  return {{stretch.nodes.begin() + first, stretch.nodes.begin() + last + 1},
-          false,
-          {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
+  return {{stretch.nodes.begin() + first, stretch.nodes.begin() + last + 1}, false, {stretch.bad.begin() + first, stretch.bad.begin() + last + 1}};
 }
 
 // A stretch cut down to `reach` nodes on both sides of one.
@@ -304,8 +303,7 @@ RingCount insert_rings(const CadModel& model, PaddedMesh& padded, RingWay way, c
     count.cusps = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.angle < kOneCell; });
     std::vector<int> bad;
     for (int i = 0; i < static_cast<int>(sectors.size()); ++i) {
-      if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kBadSector &&
-          given_up.count({sectors[i].node, sectors[i].patch}) == 0) {
+      if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kBadSector && given_up.count({sectors[i].node, sectors[i].patch}) == 0) {
         bad.push_back(i);
       }
     }

@@ -397,8 +397,7 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
     const TrialMesh whole(model, padded);
     const Chooser chooser(whole);
     if (tried.empty()) {
-      count.regions =
-          static_cast<int>(std::count_if(chooser.regions().own.begin(), chooser.regions().own.end(), [](double cost) { return cost < 0; }));
+      count.regions = static_cast<int>(std::count_if(chooser.regions().own.begin(), chooser.regions().own.end(), [](double cost) { return cost < 0; }));
     }
     for (int r = 0; r < chooser.regions().size() && !again; ++r) {
       if (chooser.regions().own[r] >= 0 || !tried.insert(chooser.regions().patch[r]).second) continue;

@@ -7,7 +7,7 @@ namespace polycube {
 
 /// Faces of hexes are "sides": 6 * hex + face, faces as in core/hexahedron.h.
 struct HexTopology {
-  std::vector<int> mate;  ///< per side: the side on the other hex, or -1 - quad on the boundary (-1 - quads.size() if no quad is listed)
+  std::vector<int> mate;        ///< per side: the side on the other hex, or -1 - quad on the boundary (-1 - quads.size() if no quad is listed)
   std::vector<int> quad_side;   ///< per boundary quad: its side, -1 if it is none
   std::vector<int> node_first;  ///< CSR over nodes into node_hexes
   std::vector<int> node_hexes;  ///< hexes round each node, ascending

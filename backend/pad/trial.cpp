@@ -119,8 +119,7 @@ double total_cost(const CadModel& model, const PaddedMesh& padded, const std::ve
 
 }  // namespace
 
-TrialMesh::TrialMesh(const CadModel& cad, const PaddedMesh& mesh)
-    : model(cad), padded(mesh), topology(build_topology(mesh.mesh, mesh.association.quads)) {
+TrialMesh::TrialMesh(const CadModel& cad, const PaddedMesh& mesh) : model(cad), padded(mesh), topology(build_topology(mesh.mesh, mesh.association.quads)) {
   node_quads.resize(mesh.mesh.points.size());
   node_segments.resize(mesh.mesh.points.size());
   for (int q = 0; q < static_cast<int>(mesh.association.quads.size()); ++q) {

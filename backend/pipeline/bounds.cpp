@@ -20,8 +20,9 @@ constexpr double kSlack = 0.05;
 constexpr double kShareSlack = 0.1;
 // Of the longest to the shortest edge of a cell: the most that solvers take without a warning.
 constexpr double kWidestAspect = 10;
-// What asks the cells beside it for more, in sizes (27 parts: without these two limits some had a hundred times their cells, since a sheet goes through the whole part; with a
-// thirtieth and a tenth the number is up to 1.6 times as large): cells along which others may not be longer than 10 times that width, cells from which others grow.
+// What asks the cells beside it for more, in sizes (27 parts: without these two limits some had a hundred times their cells, since a sheet goes through the
+// whole part; with a thirtieth and a tenth the number is up to 1.6 times as large): cells along which others may not be longer than 10 times that width, cells
+// from which others grow.
 constexpr double kThinnest = 1.0 / 20, kSmallest = 1.0 / 5;
 // A layer never gets more than so many times its cells at once for what stands beside it.
 constexpr int kMostRounds = 100;

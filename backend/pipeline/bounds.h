@@ -15,8 +15,8 @@ namespace polycube {
 std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
                                             const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more = {});
 
-/// More bounds, by what the integers give: cells of a block that grow from smaller ones beside it by `growth` at most, and none longer than 10 times its width. Cells far
-/// thinner than `size` (units of the map) count as no thinner than a share of it. Empty where the bounds hold.
+/// More bounds, by what the integers give: cells of a block that grow from smaller ones beside it by `growth` at most, and none longer than 10 times its width.
+/// Cells far thinner than `size` (units of the map) count as no thinner than a share of it. Empty where the bounds hold.
 std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value, double growth,
                                                  double size);
 

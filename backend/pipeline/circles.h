@@ -18,12 +18,12 @@ struct RoundEdge {
   std::string name;  ///< for the log, such as "Face12: 12 elements round the bore" or "Edge7: 3 elements along the arc"
 };
 
-/// `per_circle` elements for every full turn, in proportion for less, at most 8 where the circle is smaller than a hundredth of the diagonal. Ascending by edge;
-/// seams and points are none. 0 gives none.
+/// `per_circle` elements for every full turn, in proportion for less, at most 8 where the circle is smaller than a hundredth of the diagonal. Ascending by
+/// edge; seams and points are none. 0 gives none.
 std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle);
 
-/// By how many mesh edges each of the round edges falls short, given those that each CAD edge has (by number); a circle as a whole, told at its first edge. Edges
-/// without any, which are lost, are left out.
+/// By how many mesh edges each of the round edges falls short, given those that each CAD edge has (by number); a circle as a whole, told at its first edge.
+/// Edges without any, which are lost, are left out.
 std::vector<int> missing_elements(const std::vector<RoundEdge>& edges, const std::vector<int>& elements);
 
 /// How far the tangent of a CAD edge turns between two parameters, radians.

@@ -54,7 +54,8 @@ std::vector<int> solids_of_blocks(const TetMesh& tets, const PolycuboidMap& map,
   return result;
 }
 
-std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& complex, const PolycuboidMap& map, const std::vector<int>& block_solid, const std::vector<int>& layers, const std::vector<char>& may_yield) {
+std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& complex, const PolycuboidMap& map, const std::vector<int>& block_solid,
+                                                   const std::vector<int>& layers, const std::vector<char>& may_yield) {
   std::array<int, 3> feature{-1, -1, -1};
   for (int c = 0; c < static_cast<int>(map.charts.size()); ++c)
     if (map.charts[c].sign == 0) feature[static_cast<std::size_t>(map.charts[c].axis)] = c;
@@ -77,7 +78,9 @@ std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& complex, const 
       while (complex.blocks[last].neighbours[2 * d + 1] >= 0 && !parted(last, 2 * d + 1)) last = complex.blocks[last].neighbours[2 * d + 1];
       const int low = complex.blocks[b].charts[d][0], high = complex.blocks[last].charts[d][1], least = layers[block_solid[b]];
       constraints.push_back({low, high, 1, std::numeric_limits<int>::max(), "an element through the walls of a solid"});
-      if (least > 1) constraints.push_back({low, high, least, std::numeric_limits<int>::max(), std::to_string(least) + " elements through the walls of a solid", may_yield[block_solid[b]] != 0});
+      if (least > 1)
+        constraints.push_back({low, high, least, std::numeric_limits<int>::max(), std::to_string(least) + " elements through the walls of a solid",
+                               may_yield[block_solid[b]] != 0});
     }
   }
   for (auto& vertices : complex.feature_vertices) {
@@ -87,7 +90,8 @@ std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& complex, const 
   return constraints;
 }
 
-std::vector<Chart> charts_of_solid(const TetMesh& tets, const std::vector<int>& tet_points, const TetMesh& own, const PolycuboidMap& map, const std::vector<int>& inner_chart) {
+std::vector<Chart> charts_of_solid(const TetMesh& tets, const std::vector<int>& tet_points, const TetMesh& own, const PolycuboidMap& map,
+                                   const std::vector<int>& inner_chart) {
   const int first_interface = static_cast<int>(map.charts.size()) - 1 - *std::max_element(inner_chart.begin(), inner_chart.end());
   std::map<Triangle, int> chart_at;
   for (int c = 0; c < first_interface; ++c)

@@ -171,7 +171,9 @@ ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& te
   // Those with most faces first: the others are more likely to follow.
   std::vector<int> order(model.solids.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return model.solids[static_cast<std::size_t>(a)].faces().size() > model.solids[static_cast<std::size_t>(b)].faces().size(); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return model.solids[static_cast<std::size_t>(a)].faces().size() > model.solids[static_cast<std::size_t>(b)].faces().size();
+  });
   double faults = 0;
   for (const int s : order) {
     const CadModel& solid = model.solids[static_cast<std::size_t>(s)];

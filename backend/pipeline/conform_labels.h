@@ -8,10 +8,10 @@
 namespace polycube {
 
 struct ConformalLabels {
-  TetMesh mesh;                 ///< of all solids, cut along the borders of the labels
-  Labelling labelling;          ///< of its triangles, the outer boundary
-  std::vector<int> inner_label; ///< per inner triangle, as the solid with the lower index sees it
-  double faults = 0;            ///< Violations::score, summed over the solids, each with all of its boundary
+  TetMesh mesh;                  ///< of all solids, cut along the borders of the labels
+  Labelling labelling;           ///< of its triangles, the outer boundary
+  std::vector<int> inner_label;  ///< per inner triangle, as the solid with the lower index sees it
+  double faults = 0;             ///< Violations::score, summed over the solids, each with all of its boundary
 };
 
 /// `attempt`: which of the labellings of every solid is taken, 0 the best by itself. `options`: frame and labels of faces given.

@@ -49,7 +49,7 @@ struct Draft {
   std::vector<PaddedMesh> solids;  ///< padded, each by its own numbers
   std::vector<int> hex_block;      ///< per hex of the whole
   FitReport fitted;
-  std::vector<int> padded_hexes;   ///< per solid
+  std::vector<int> padded_hexes;  ///< per solid
   Quantization quantization;
   int charts = 0, blocks = 0;
   int lost() const {
@@ -107,7 +107,9 @@ class Conformer {
   void refuse_demands() const {
     const bool by_entity = std::any_of(options_.sizes.begin(), options_.sizes.end(), [](const LocalSize& s) { return s.solid == 0; }) ||
                            std::any_of(options_.divisions.begin(), options_.divisions.end(), [](const Division& d) { return d.solid == 0; });
-    if (by_entity || !options_.bias.empty()) throw InvalidInput("--bias, --sizes and --divisions of faces, edges and axes go with --interfaces separate only; those of solids go with common nodes too");
+    if (by_entity || !options_.bias.empty())
+      throw InvalidInput(
+          "--bias, --sizes and --divisions of faces, edges and axes go with --interfaces separate only; those of solids go with common nodes too");
     if (options_.feature_angle > 0) throw InvalidInput("--feature-angle goes with --interfaces separate only");
   }
 
@@ -168,9 +170,11 @@ class Conformer {
     DeformOptions deform_options;
     deform_options.merge = merge_distance(size_, model_.outer.diagonal());
     deform_options.threads = thread_count(options_.threads);
-    const RealisedMap realised = clock_.stage("deform", [&] { return realise(model_.outer, tets, labels.labelling, features, deform_options, monitor_, between.charts); });
+    const RealisedMap realised =
+        clock_.stage("deform", [&] { return realise(model_.outer, tets, labels.labelling, features, deform_options, monitor_, between.charts); });
     const PolycuboidMap& map = realised.map;
-    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " + std::to_string(tets.tets.size()) + " tets");
+    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
+                 std::to_string(tets.tets.size()) + " tets");
     BlockComplex blocks = clock_.stage("blocks", [&] { return extract_blocks(tets, map, monitor_); });
     const std::vector<int> block_solid = solids_of_blocks(tets, map, blocks);
     draft.quantization = clock_.stage("quantize", [&] {
@@ -213,8 +217,9 @@ class Conformer {
     return faces;
   }
 
-  void pad_solid(int s, const TetMesh& tets, const PolycuboidMap& map, const std::vector<int>& inner_chart, const HexComplex& hexes, const std::vector<int>& hex_solid,
-                 std::vector<SolidGrid>& grids, std::vector<std::vector<PaddedMesh>>& choices, std::vector<std::vector<int>>& added) {
+  void pad_solid(int s, const TetMesh& tets, const PolycuboidMap& map, const std::vector<int>& inner_chart, const HexComplex& hexes,
+                 const std::vector<int>& hex_solid, std::vector<SolidGrid>& grids, std::vector<std::vector<PaddedMesh>>& choices,
+                 std::vector<std::vector<int>>& added) {
     const CadModel& model = model_.solids[s];
     std::vector<int> points;
     const TetMesh own = tets_of_solid(tets, s, &points);
@@ -245,7 +250,8 @@ class Conformer {
   }
 
   /// The best of all solids, then the second best of those that have one, and so on; the last is without layers.
-  void fit_choices(Draft& draft, const std::vector<SolidGrid>& grids, const std::vector<std::vector<PaddedMesh>>& choices, const std::vector<std::vector<int>>& added, std::size_t nodes) {
+  void fit_choices(Draft& draft, const std::vector<SolidGrid>& grids, const std::vector<std::vector<PaddedMesh>>& choices,
+                   const std::vector<std::vector<int>>& added, std::size_t nodes) {
     std::size_t most = 1;
     for (const auto& c : choices) most = std::max(most, c.size());
     std::vector<JoinedGrids> joined;
@@ -292,7 +298,8 @@ class Conformer {
       name_by_origin(fem, model_, hex_solid, draft.joined.whole.association.point_cad);
       return fem;
     });
-    for (std::size_t s = 0; s < draft.solids.size(); ++s) result.reports.push_back({assembly_.labels[static_cast<std::size_t>(model_.numbers[s]) - 1], report_of(draft, s, tried)});
+    for (std::size_t s = 0; s < draft.solids.size(); ++s)
+      result.reports.push_back({assembly_.labels[static_cast<std::size_t>(model_.numbers[s]) - 1], report_of(draft, s, tried)});
     // What is of all is told once.
     MeshReport& first = result.reports.front().report;
     const int nodes = first.nodes;
@@ -327,7 +334,9 @@ class Conformer {
     r.padded_hexes = draft.padded_hexes[s];
     r.plan = "conform";
     r.plans_tried = s == 0 ? tried : 0;
-    if (s == 0) r.quantization = {draft.quantization.objective, draft.quantization.bound, draft.quantization.gap(), draft.quantization.optimal, draft.quantization.nodes, draft.quantization.cuts, draft.quantization.c2_rounds};
+    if (s == 0)
+      r.quantization = {draft.quantization.objective, draft.quantization.bound, draft.quantization.gap(),    draft.quantization.optimal,
+                        draft.quantization.nodes,     draft.quantization.cuts,  draft.quantization.c2_rounds};
     std::vector<int> real;
     for (const int e : model.edges())
       if (!model.edge(e).seam && !model.edge(e).degenerate && !model.edge(e).tiny) real.push_back(e);
@@ -367,7 +376,8 @@ StageFailed by_origin(const StageFailed& failure, const ConformalModel& model) {
   for (const CadRef& entity : failure.entities()) {
     for (const Origin& origin : model.origins) {
       const std::vector<int>& before = entity.dim == 2 ? origin.faces : entity.dim == 1 ? origin.edges : origin.vertices;
-      if (static_cast<std::size_t>(entity.id) < before.size() && before[static_cast<std::size_t>(entity.id)] > 0) entities.push_back({entity.dim, before[static_cast<std::size_t>(entity.id)]});
+      if (static_cast<std::size_t>(entity.id) < before.size() && before[static_cast<std::size_t>(entity.id)] > 0)
+        entities.push_back({entity.dim, before[static_cast<std::size_t>(entity.id)]});
     }
   }
   std::sort(entities.begin(), entities.end());

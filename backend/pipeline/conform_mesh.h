@@ -13,8 +13,8 @@ struct ConformalMesh {
   std::vector<SolidReport> reports;  ///< per solid of the model
 };
 
-/// `options` are those of the whole assembly, `size` the edge length where a solid has none of its own. Throws StageFailed: of a stage, or of "interfaces" where
-/// common nodes are not possible. InvalidInput for demands that only solids by themselves can be held to.
+/// `options` are those of the whole assembly, `size` the edge length where a solid has none of its own. Throws StageFailed: of a stage, or of "interfaces"
+/// where common nodes are not possible. InvalidInput for demands that only solids by themselves can be held to.
 ConformalMesh mesh_conformally(const ConformalModel& model, const Assembly& assembly, const MeshOptions& options, const Monitor& monitor);
 
 }  // namespace polycube

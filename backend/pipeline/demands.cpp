@@ -93,7 +93,8 @@ void divide_edge(const Division& division, const std::vector<EdgeRun>& runs, con
     throw StageFailed("quantize", "the grid does not follow the edge of division " + text_of(division), {{1, division.edge}});
   }
   if (division.at_most < count) {
-    throw StageFailed("quantize", "division " + text_of(division) + ": the edge takes " + std::to_string(count) + " turns of the grid, it needs as many elements",
+    throw StageFailed("quantize",
+                      "division " + text_of(division) + ": the edge takes " + std::to_string(count) + " turns of the grid, it needs as many elements",
                       {{1, division.edge}});
   }
   double whole = 0;
@@ -188,8 +189,8 @@ void check_biases(const CadModel& model, const EdgeBiases& biases) {
   }
 }
 
-QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                                 const MeshOptions& options, double scale) {
+QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const MeshOptions& options,
+                                 double scale) {
   QuantizeOptions result;
   result.scale = scale;
   result.min_layers = std::max(1, options.min_layers);

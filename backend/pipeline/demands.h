@@ -15,8 +15,8 @@ void check_biases(const CadModel& model, const EdgeBiases& biases);
 
 /// `options` in the pose of the map; `scale`: cells per unit of the map. Throws StageFailed("quantize", ...) naming the entities when these
 /// blocks cannot keep a demand: faces that are nowhere opposite each other, an edge that does not run along the axes.
-QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                                 const MeshOptions& options, double scale);
+QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const MeshOptions& options,
+                                 double scale);
 
 /// Puts the cells along the edges of `bias` into geometric series. Throws StageFailed("quantize", ...) where the grid does not follow one.
 void bias_edges(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const EdgeBiases& biases,

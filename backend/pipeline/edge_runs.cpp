@@ -48,7 +48,8 @@ std::vector<EdgeRun> EdgeRuns::of(const std::vector<int>& chain) const {
   for (std::size_t i = 0; i < count;) {
     const int axis = along[(first + i) % count];
     const int from_node = chain[(first + i) % count];
-    for (; i < count && (along[(first + i) % count] == axis || along[(first + i) % count] < 0); ++i) {}
+    for (; i < count && (along[(first + i) % count] == axis || along[(first + i) % count] < 0); ++i) {
+    }
     const int to_node = chain[(first + i - 1) % count + 1];
     if (axis < 0) continue;
     const int from = unknown_at(from_node, axis), to = unknown_at(to_node, axis);

@@ -9,9 +9,9 @@ namespace polycube {
 /// A stretch of a CAD edge along one axis of the map, from one chart or feature to another.
 struct EdgeRun {
   int axis = 0;
-  int from = -1, to = -1;            ///< charts; -1 where the grid is free to stand anywhere on the stretch
-  int from_node = 0, to_node = 0;    ///< of the tet mesh
-  double length = 0;                 ///< in the map
+  int from = -1, to = -1;          ///< charts; -1 where the grid is free to stand anywhere on the stretch
+  int from_node = 0, to_node = 0;  ///< of the tet mesh
+  double length = 0;               ///< in the map
 };
 
 class EdgeRuns {

@@ -51,7 +51,8 @@ void gate(const CadModel& model, const PaddedMesh& padded, int threads, const Mo
   }
   const int euler = static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(padded.association.quads.size());
   if (euler != model.euler_characteristic()) throw StageFailed("hex", "the mesh has another topology than the solid");
-  // Solvers look at integration points too; an element that cannot be made there is no better than an inverted one. Where the straight one can, so can that of second order.
+  // Solvers look at integration points too; an element that cannot be made there is no better than an inverted one. Where the straight one can, so can that of
+  // second order.
   build_fem_mesh(model, padded.mesh, padded.association, {.order = 1, .threads = threads}, monitor);
 }
 

@@ -63,9 +63,7 @@ MeditTets read_medit(const std::string& path) {
   return mesh;
 }
 
-double seconds_since(Monitor::Clock::time_point start) {
-  return std::chrono::duration<double>(Monitor::Clock::now() - start).count();
-}
+double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -116,8 +114,7 @@ PolycuboidInput read_polycuboid(const std::string& tets_path, const std::string&
     const bool negative = (p[tet[1]] - p[tet[0]]).cross(p[tet[2]] - p[tet[0]]).dot(p[tet[3]] - p[tet[0]]) < 0;
     for (int f = 0; f < 4; ++f) {
       int label = 0;
-      if (!(labels >> label) || label < -1 || label > 5)
-        throw InvalidInput(labels_path + " does not hold four labels from -1 to 5 per tetrahedron");
+      if (!(labels >> label) || label < -1 || label > 5) throw InvalidInput(labels_path + " does not hold four labels from -1 to 5 per tetrahedron");
       if (label < 0) continue;
       Triangle t{tet[kFacets[f][0]], tet[kFacets[f][1]], tet[kFacets[f][2]]};
       if (negative) std::swap(t[1], t[2]);

@@ -28,7 +28,7 @@ struct HexMapOptions {
 };
 
 struct HexMapResult {
-  double scale = 0;  ///< eta used
+  double scale = 0;         ///< eta used
   QuantizeOptions options;  ///< used, with that scale
   BlockComplex blocks;
   Quantization quantization;

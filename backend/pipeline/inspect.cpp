@@ -155,11 +155,20 @@ std::string report_json(const std::string& name, const CadModel& model, const La
   json["part"] = name;
   json["valid"] = v.valid();
   json["monotone"] = v.turning_points == 0;
-  json["violations"] = {{"opposite_boundaries", v.opposite_arcs}, {"missing_corners", v.poor_loops}, {"bad_corners", v.bad_corners}, {"turning_points", v.turning_points},
+  json["violations"] = {{"opposite_boundaries", v.opposite_arcs},
+                        {"missing_corners", v.poor_loops},
+                        {"bad_corners", v.bad_corners},
+                        {"turning_points", v.turning_points},
                         {"bad_turns", v.bad_turns}};
-  json["counts"] = {{"faces", model.faces().size()}, {"tets", part.tets.tets.size()}, {"triangles", part.tets.triangles.size()}, {"charts", inspection.charts},
-                    {"boundaries", inspection.boundaries}, {"corners", inspection.corners.size()}, {"stray_charts", inspection.stray_charts.size()},
-                    {"zigzags", inspection.zigzags.size()}, {"flipped", part.flipped}};
+  json["counts"] = {{"faces", model.faces().size()},
+                    {"tets", part.tets.tets.size()},
+                    {"triangles", part.tets.triangles.size()},
+                    {"charts", inspection.charts},
+                    {"boundaries", inspection.boundaries},
+                    {"corners", inspection.corners.size()},
+                    {"stray_charts", inspection.stray_charts.size()},
+                    {"zigzags", inspection.zigzags.size()},
+                    {"flipped", part.flipped}};
   const EdgeTable edges = edge_table(part);
   json["edges"] = {{"total", edges.edges}, {"boundary", edges.boundary}, {"feature", edges.feature}, {"lost", Json::array()}};
   for (const FeatureEdge& e : part.features.edges) {
@@ -191,8 +200,8 @@ void write_vtu(const std::string& path, const LabelledPart& part, const Inspecti
       << part.tets.points.size() << "\" NumberOfCells=\"" << cells.size() << "\">\n<PointData>\n";
   if (!part.map.image.empty()) array("Float64", "g", 3, part.map.image, point);
   out << "</PointData>\n<CellData>\n";
-  for (const auto& [name, member] : {std::pair{"kind", &Cell::kind}, {"label", &Cell::label}, {"chart", &Cell::chart}, {"face", &Cell::face},
-                                     {"edge", &Cell::edge}, {"axis", &Cell::axis}})
+  for (const auto& [name, member] :
+       {std::pair{"kind", &Cell::kind}, {"label", &Cell::label}, {"chart", &Cell::chart}, {"face", &Cell::face}, {"edge", &Cell::edge}, {"axis", &Cell::axis}})
     array("Int32", name, 1, cells, [&, value = member](const Cell& c) { out << c.*value << '\n'; });
   out << "</CellData>\n<Points>\n";
   array("Float64", "Points", 3, part.tets.points, point);

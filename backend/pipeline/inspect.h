@@ -11,15 +11,15 @@ namespace polycube {
 
 /// Of the boundary mesh as it is after straightening, not of the regions that the labels were searched on. Points are indices into the tet mesh.
 struct Inspection {
-  std::vector<int> chart;               ///< per boundary triangle, numbered by the first triangle
+  std::vector<int> chart;  ///< per boundary triangle, numbered by the first triangle
   int charts = 0;
-  int boundaries = 0;                   ///< maximal chains between two charts
-  Violations violations;                ///< by the published rules
-  std::vector<int> corners;             ///< points where three or more charts meet, ascending
-  std::vector<int> bad_corners;         ///< those no polycube has
-  std::vector<int> turning_points;      ///< where a boundary reverses along its axis
-  std::vector<int> zigzags;             ///< points inside a CAD face where a boundary bends by more than 35 degrees
-  std::vector<int> stray_charts;        ///< charts of at most 4 triangles, or of less than a square of 2 mean edges
+  int boundaries = 0;               ///< maximal chains between two charts
+  Violations violations;            ///< by the published rules
+  std::vector<int> corners;         ///< points where three or more charts meet, ascending
+  std::vector<int> bad_corners;     ///< those no polycube has
+  std::vector<int> turning_points;  ///< where a boundary reverses along its axis
+  std::vector<int> zigzags;         ///< points inside a CAD face where a boundary bends by more than 35 degrees
+  std::vector<int> stray_charts;    ///< charts of at most 4 triangles, or of less than a square of 2 mean edges
 };
 
 Inspection inspect(const LabelledPart& part);

@@ -18,7 +18,8 @@ std::optional<StageFailed> unrealisable(const LabelledPart& part) {
   const RisingLoop loop = find_rising_loop(part.tets, part.labelling.frame, part.labelling.label);
   if (loop.charts.empty()) return std::nullopt;
   const std::vector<Chart> charts = find_charts(part.tets.triangles, part.labelling.label);
-  std::string text = "no map can have these labels: along one axis each of these charts would have to lie beyond the one before it, and the first beyond the last:";
+  std::string text =
+      "no map can have these labels: along one axis each of these charts would have to lie beyond the one before it, and the first beyond the last:";
   std::set<int> faces;
   for (int c : loop.charts) {
     text += " " + std::to_string(c);

@@ -18,8 +18,8 @@ struct LabelledPart {
   Labelling labelling;
   LabelReport label_report;
   Features features;
-  PolycuboidMap map;                 ///< empty where there is none
-  int flipped = 0;                   ///< tets without positive volume in the image
+  PolycuboidMap map;                   ///< empty where there is none
+  int flipped = 0;                     ///< tets without positive volume in the image
   std::optional<StageFailed> failure;  ///< why there is no map; of labels that no map can have (label/order.h), the charts and CAD faces concerned
   std::vector<StageRecord> stages;     ///< tet, label and, with a map, deform
 };

@@ -10,9 +10,7 @@
 namespace polycube {
 namespace {
 
-double seconds_since(Monitor::Clock::time_point start) {
-  return std::chrono::duration<double>(Monitor::Clock::now() - start).count();
-}
+double seconds_since(Monitor::Clock::time_point start) { return std::chrono::duration<double>(Monitor::Clock::now() - start).count(); }
 
 }  // namespace
 
@@ -24,8 +22,7 @@ PartMesh mesh_part(Session& session, const MeshOptions& options, const Monitor& 
   MeshResult result = session.mesh(options, monitor);
   const auto fem_start = Monitor::Clock::now();
   const Monitor finishing(monitor, finishing_deadline(result.report, monitor));
-  PartMesh made{build_fem_mesh(session.model(), result.mesh, result.association, {options.order, options.threads}, finishing),
-                std::move(result.report)};
+  PartMesh made{build_fem_mesh(session.model(), result.mesh, result.association, {options.order, options.threads}, finishing), std::move(result.report)};
   made.fem.hex_block = std::move(result.hex_block);
   made.report.stages.push_back({"fem", seconds_since(fem_start)});
   complete(made.report, made.fem);
@@ -70,7 +67,8 @@ ConformalMesh mesh_unit(const Assembly& assembly, const std::vector<int>& unit, 
   } catch (const InvalidInput& e) {
     throw InvalidInput(names(assembly, unit) + ": " + e.what());
   } catch (const StageFailed& e) {
-    throw StageFailed(e.stage(), names(assembly, unit) + ": " + e.what() + (unit.size() > 1 ? "; --interfaces separate meshes each solid by itself" : ""), e.entities());
+    throw StageFailed(e.stage(), names(assembly, unit) + ": " + e.what() + (unit.size() > 1 ? "; --interfaces separate meshes each solid by itself" : ""),
+                      e.entities());
   }
 }
 

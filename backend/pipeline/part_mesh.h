@@ -18,8 +18,8 @@ struct PartMesh {
 };
 
 /// Reads the part, checks the options against it, meshes it and makes elements of the order asked for. The caller's monitor carries
-/// progress, cancel and deadline. Several solids go into one mesh, each with nodes of its own (MeshOptions::interfaces "separate"). Throws what `read` and mesh()
-/// throw, with the solid's name where there are several.
+/// progress, cancel and deadline. Several solids go into one mesh, each with nodes of its own (MeshOptions::interfaces "separate"). Throws what `read` and
+/// mesh() throw, with the solid's name where there are several.
 PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& options, const Monitor& monitor);
 /// The same of one solid.
 PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor);

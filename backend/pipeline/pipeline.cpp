@@ -15,8 +15,8 @@
 namespace polycube {
 namespace {
 
-// Times the seconds that the gate took with the best mesh: what is kept of the time limit to hand it out. Elements of second order and the file took up to 16 times
-// as long on the example parts.
+// Times the seconds that the gate took with the best mesh: what is kept of the time limit to hand it out. Elements of second order and the file took up to 16
+// times as long on the example parts.
 constexpr double kFinishing = 20;
 
 // Share of the time limit after which a search without a mesh looks for any (guess): the last ways take some fits too.
@@ -37,7 +37,8 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
   const auto begun = Monitor::Clock::now();
   const auto hurry = [&] {
     const auto deadline = searching.deadline();
-    return deadline != Monitor::Clock::time_point::max() && std::chrono::duration<double>(Monitor::Clock::now() - begun) > kHurry * std::chrono::duration<double>(deadline - begun);
+    return deadline != Monitor::Clock::time_point::max() &&
+           std::chrono::duration<double>(Monitor::Clock::now() - begun) > kHurry * std::chrono::duration<double>(deadline - begun);
   };
   const SearchResult found = search(schedule, budget, evaluate, searching, hurry);
   MeshResult result = evaluator.result(found.best);

@@ -74,9 +74,7 @@ int Pose::posed_label(int user_label) const {
   return 2 * at + (sign[at] > 0 ? user_label % 2 : 1 - user_label % 2);
 }
 
-int Pose::user_label(int posed_label) const {
-  return 2 * axis[posed_label / 2] + (sign[posed_label / 2] > 0 ? posed_label % 2 : 1 - posed_label % 2);
-}
+int Pose::user_label(int posed_label) const { return 2 * axis[posed_label / 2] + (sign[posed_label / 2] > 0 ? posed_label % 2 : 1 - posed_label % 2); }
 
 double Pose::map_back(int posed_axis, double value) const { return sign[posed_axis] * (value - translation[posed_axis]) / scale; }
 

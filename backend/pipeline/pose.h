@@ -11,15 +11,15 @@ namespace polycube {
 /// The part as the stages see it: axes of its frame along x, y, z, longest first, directed by its own shape, of fixed volume, rounded so that
 /// equal parts in different poses become the same to the last bit. p -> scale * rotation * p + translation leads there.
 struct Pose {
-  CadModel model;                       ///< posed
+  CadModel model;  ///< posed
   Mat3 rotation = Mat3::Identity();
   Vec3 translation = Vec3::Zero();
   double scale = 1;
-  Mat3 frame = Mat3::Identity();        ///< of the labels, in the pose
-  Mat3 user_frame = Mat3::Identity();   ///< of the labels as the user sees them (given, or find_frame), in the part as given
-  std::array<int, 3> axis{0, 1, 2};     ///< per axis of `frame`: the user's axis along it
-  std::array<int, 3> sign{1, 1, 1};     ///< +1: the same way, -1: against it
-  bool frame_given = false;             ///< by the user
+  Mat3 frame = Mat3::Identity();       ///< of the labels, in the pose
+  Mat3 user_frame = Mat3::Identity();  ///< of the labels as the user sees them (given, or find_frame), in the part as given
+  std::array<int, 3> axis{0, 1, 2};    ///< per axis of `frame`: the user's axis along it
+  std::array<int, 3> sign{1, 1, 1};    ///< +1: the same way, -1: against it
+  bool frame_given = false;            ///< by the user
 
   Vec3 back(const Vec3& p) const { return rotation.transpose() * (p - translation) / scale; }
   int posed_label(int user_label) const;

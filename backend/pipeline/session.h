@@ -7,9 +7,9 @@
 
 namespace polycube {
 
-/// Keeps tetrahedra, labels, maps and blocks from one mesh to the next. They are those of the options given first (a size or a number of hexahedra there bounds the
-/// size of the tetrahedra), and made anew when an option changes that they depend on: labels, frame, feature_angle, keep_faces, fidelity, compactness, a size
-/// along an axis. A mesh depends on what was given first and on its own options, not on the meshes in between. Not for several threads at once.
+/// Keeps tetrahedra, labels, maps and blocks from one mesh to the next. They are those of the options given first (a size or a number of hexahedra there bounds
+/// the size of the tetrahedra), and made anew when an option changes that they depend on: labels, frame, feature_angle, keep_faces, fidelity, compactness, a
+/// size along an axis. A mesh depends on what was given first and on its own options, not on the meshes in between. Not for several threads at once.
 class Session {
  public:
   /// Throws InvalidInput: options against this part.

@@ -15,9 +15,7 @@ namespace {
 // put under two faces does not.
 constexpr double kOpposite = -0.5;
 
-Vec3 unit_normal(const std::vector<Vec3>& points, const Quad& q) {
-  return (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]).normalized();
-}
+Vec3 unit_normal(const std::vector<Vec3>& points, const Quad& q) { return (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]).normalized(); }
 
 std::string faces_of(const std::vector<int>& patch) {
   std::string text;

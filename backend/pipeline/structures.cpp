@@ -176,7 +176,8 @@ void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std:
   s.map = std::move(realised.map);
   s.flipped = realised.report.flipped;
   s.distortion = realised.report.distortion;
-  monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(s.flipped) + " flipped of " + std::to_string(s.tets.tets.size()) + " tets");
+  monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(s.flipped) + " flipped of " +
+               std::to_string(s.tets.tets.size()) + " tets");
   s.blocks = clock_.stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
 }
 

@@ -30,9 +30,9 @@ LabelOptions label_options(const MeshOptions& options);
 /// What structures differ in.
 struct StructurePlan {
   LabelVariant labels{};
-  double min_bend = 0;        ///< radians: CAD edges smoother than this get no feature chart
-  bool features = true;       ///< feature charts at all
-  double tet_size = 1;        ///< on the size of the tets
+  double min_bend = 0;   ///< radians: CAD edges smoother than this get no feature chart
+  bool features = true;  ///< feature charts at all
+  double tet_size = 1;   ///< on the size of the tets
   friend auto operator<=>(const StructurePlan&, const StructurePlan&) = default;
 };
 
@@ -43,9 +43,9 @@ struct Structure {
   PolycuboidMap map;
   BlockComplex blocks;
   std::optional<StageFailed> failure;
-  bool repeats = false;       ///< labels and features are those of one made before: that is its failure
-  int flipped = 0;            ///< tets that the map turns over
-  double distortion = 0;      ///< DeformReport's
+  bool repeats = false;   ///< labels and features are those of one made before: that is its failure
+  int flipped = 0;        ///< tets that the map turns over
+  double distortion = 0;  ///< DeformReport's
 };
 
 /// The structures of one part, each made when it is first asked for.
@@ -56,8 +56,8 @@ class Structures {
 
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
-  /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps. As they come where
-  /// there is no tet mesh to judge them on.
+  /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps. As
+  /// they come where there is no tet mesh to judge them on.
   std::vector<LabelVariant> label_order();
   /// Invalid labels, where others are valid, take long to map and seldom have a map.
   bool doubtful(const StructurePlan& plan);
@@ -85,7 +85,7 @@ class Structures {
   std::vector<char> ignored_;
   StageClock& clock_;
   const Monitor& monitor_;
-  std::map<double, Tets> tets_;              // by factor on their size
+  std::map<double, Tets> tets_;  // by factor on their size
   std::map<double, LabelChoice> labellings_;
   std::map<StructurePlan, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features made

@@ -8,7 +8,8 @@ namespace polycube {
 namespace {
 
 // Per tet mesh point: a CAD vertex that some CAD edge with a chain ends in.
-std::vector<char> find_vertices(const CadModel& model, const TetMesh& tets, const std::vector<std::vector<int>>& edge_chains, const std::vector<char>& ignored) {
+std::vector<char> find_vertices(const CadModel& model, const TetMesh& tets, const std::vector<std::vector<int>>& edge_chains,
+                                const std::vector<char>& ignored) {
   std::vector<char> wanted(static_cast<std::size_t>(model.vertex_count()) + 1, 0);
   for (const int e : model.edges()) {
     const CadEdge& edge = model.edge(e);

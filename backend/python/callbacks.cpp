@@ -13,8 +13,7 @@ bool due(std::atomic<Monitor::Clock::rep>& next, std::chrono::milliseconds inter
 
 }  // namespace
 
-Callbacks::Callbacks(const py::object& progress, const py::object& log, const py::object& cancel)
-    : progress_(progress), log_(log), cancel_(cancel) {
+Callbacks::Callbacks(const py::object& progress, const py::object& log, const py::object& cancel) : progress_(progress), log_(log), cancel_(cancel) {
   monitor.cancel_requested = [this] { return cancel_requested(); };
   if (!progress_.is_none()) monitor.on_progress = [this](const std::string& stage, double fraction) { report(stage, fraction); };
   if (!log_.is_none()) monitor.on_log = [this](const std::string& line) { guarded([&] { log_(line); }); };

@@ -7,8 +7,8 @@
 namespace polycube::python {
 namespace {
 
-py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object, const py::object& progress,
-              const py::object& log, const py::object& cancel, const py::kwargs& given) {
+py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+              const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   int face_count = 0;
@@ -37,8 +37,7 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   result["turning_points"] = to_array(inspection.turning_points);
   result["valid"] = inspection.violations.valid();
   py::dict edges;
-  for (const FeatureEdge& e : part.features.edges)
-    edges[py::int_(e.edge)] = py::make_tuple(kCaptureNames.at(static_cast<std::size_t>(e.capture)), e.reason);
+  for (const FeatureEdge& e : part.features.edges) edges[py::int_(e.edge)] = py::make_tuple(kCaptureNames.at(static_cast<std::size_t>(e.capture)), e.reason);
   result["edges"] = edges;
   return result;
 }

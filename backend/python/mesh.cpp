@@ -87,23 +87,23 @@ void write_mesh(const Mesh& mesh, const std::string& path, const std::optional<s
 
 void bind_mesh(py::module_& module) {
   py::class_<Mesh> cls(module, "Mesh", "Finite element mesh; see backend/python/README.md for shapes and orders.");
-  const auto fields = std::make_tuple(
-      std::make_pair("order", [](const Mesh& m) { return py::object(py::int_(m.fem.order)); }),
-      std::make_pair("nodes", [](const Mesh& m) { return py::object(to_array<double>(m.fem.points, 3)); }),
-      std::make_pair("hexes", [](const Mesh& m) { return py::object(nodes_of(m, m.fem.hexes)); }),
-      std::make_pair("hex_block", [](const Mesh& m) { return py::object(to_array(m.fem.hex_block)); }),
-      std::make_pair("hex_solid", [](const Mesh& m) { return py::object(to_array(solid_numbers(m.fem))); }),
-      std::make_pair("quads", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quads, m.fem.order == 2 ? 8 : 4)); }),
-      std::make_pair("quad_face", [](const Mesh& m) { return py::object(to_array(m.fem.quad_face)); }),
-      std::make_pair("quad_hex", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quad_hex, 2)); }),
-      std::make_pair("segments", [](const Mesh& m) { return py::object(to_array<int>(m.fem.segments, m.fem.order == 2 ? 3 : 2)); }),
-      std::make_pair("segment_edge", [](const Mesh& m) { return py::object(to_array(m.fem.segment_edge)); }),
-      std::make_pair("groups", [](const Mesh& m) { return py::object(groups(m)); }),
-      std::make_pair("scaled_jacobian", [](const Mesh& m) { return py::object(per_cell(m, scaled_jacobian)); }),
-      std::make_pair("edge_ratio", [](const Mesh& m) { return py::object(per_cell(m, edge_ratio)); }),
-      std::make_pair("skew", [](const Mesh& m) { return py::object(per_cell(m, skew)); }),
-      std::make_pair("warpage", [](const Mesh& m) { return py::object(per_cell(m, warpage)); }),
-      std::make_pair("report", [](const Mesh& m) { return report(m); }));
+  const auto fields =
+      std::make_tuple(std::make_pair("order", [](const Mesh& m) { return py::object(py::int_(m.fem.order)); }),
+                      std::make_pair("nodes", [](const Mesh& m) { return py::object(to_array<double>(m.fem.points, 3)); }),
+                      std::make_pair("hexes", [](const Mesh& m) { return py::object(nodes_of(m, m.fem.hexes)); }),
+                      std::make_pair("hex_block", [](const Mesh& m) { return py::object(to_array(m.fem.hex_block)); }),
+                      std::make_pair("hex_solid", [](const Mesh& m) { return py::object(to_array(solid_numbers(m.fem))); }),
+                      std::make_pair("quads", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quads, m.fem.order == 2 ? 8 : 4)); }),
+                      std::make_pair("quad_face", [](const Mesh& m) { return py::object(to_array(m.fem.quad_face)); }),
+                      std::make_pair("quad_hex", [](const Mesh& m) { return py::object(to_array<int>(m.fem.quad_hex, 2)); }),
+                      std::make_pair("segments", [](const Mesh& m) { return py::object(to_array<int>(m.fem.segments, m.fem.order == 2 ? 3 : 2)); }),
+                      std::make_pair("segment_edge", [](const Mesh& m) { return py::object(to_array(m.fem.segment_edge)); }),
+                      std::make_pair("groups", [](const Mesh& m) { return py::object(groups(m)); }),
+                      std::make_pair("scaled_jacobian", [](const Mesh& m) { return py::object(per_cell(m, scaled_jacobian)); }),
+                      std::make_pair("edge_ratio", [](const Mesh& m) { return py::object(per_cell(m, edge_ratio)); }),
+                      std::make_pair("skew", [](const Mesh& m) { return py::object(per_cell(m, skew)); }),
+                      std::make_pair("warpage", [](const Mesh& m) { return py::object(per_cell(m, warpage)); }),
+                      std::make_pair("report", [](const Mesh& m) { return report(m); }));
   std::apply([&](const auto&... field) { (cls.def_property_readonly(field.first, field.second), ...); }, fields);
   cls.def("to_dict", [fields](const Mesh& m) {
     py::dict all;

@@ -29,7 +29,8 @@ std::string frame_text(const py::handle& axes) {
 /// Faces as names or numbers.
 std::string faces_text(const py::iterable& faces) {
   std::string text;
-  for (const py::handle face : faces) text += (text.empty() ? "" : ",") + std::string(py::isinstance<py::int_>(face) ? "Face" : "") + std::string(py::str(face));
+  for (const py::handle face : faces)
+    text += (text.empty() ? "" : ",") + std::string(py::isinstance<py::int_>(face) ? "Face" : "") + std::string(py::str(face));
   return text;
 }
 
@@ -54,8 +55,9 @@ MeshOptions options_from(const py::kwargs& given) {
 }
 
 void bind_options(py::module_& module) {
-  module.def("options", []() -> py::object { return py::module_::import("json").attr("loads")(describe_engine())["options"]; },
-             "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");
+  module.def(
+      "options", []() -> py::object { return py::module_::import("json").attr("loads")(describe_engine())["options"]; },
+      "One dict per option of mesh() and labels(): name, unit, meaning, type, default, min, max, choices, advanced.");
 }
 
 }  // namespace polycube::python

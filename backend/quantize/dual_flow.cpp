@@ -28,8 +28,7 @@ AxisNetwork::AxisNetwork(const AxisProblem& problem, double to_integer) : proble
     for (; i < terms.size() && terms[i].low == low && terms[i].high == high; ++i) {
       const FlowInt weight = std::llround(terms[i].weight * to_integer);
       const double below = std::floor(terms[i].target);
-      const FlowInt first =
-          std::clamp<FlowInt>(std::llround(2.0 * static_cast<double>(weight) * (below + 1 - terms[i].target)), 0, 2 * weight);
+      const FlowInt first = std::clamp<FlowInt>(std::llround(2.0 * static_cast<double>(weight) * (below + 1 - terms[i].target)), 0, 2 * weight);
       if (first > 0) breakpoints.push_back({static_cast<int>(below), first});
       if (first < 2 * weight) breakpoints.push_back({static_cast<int>(below) + 1, 2 * weight - first});
       slope -= weight;

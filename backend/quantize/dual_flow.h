@@ -102,7 +102,7 @@ class AxisFlow {
   std::vector<Extra> extras_;
   std::vector<int> extra_first_;
   double bound_ = 0;
-  FlowInt gain_ = 0;         ///< since bound_ was computed
+  FlowInt gain_ = 0;          ///< since bound_ was computed
   std::vector<Path> pushed_;  ///< by the last push()
 };
 

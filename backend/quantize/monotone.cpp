@@ -60,8 +60,8 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
       for (int d = 0; d < 3; ++d) behind |= d != axis && kCornerCoordinates[i][d] == 0 && block.neighbours[2 * d] >= 0;
       if (behind) continue;
       const bool forward = kCornerCoordinates[i][axis] == 0;
-      all.push_back({axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]], block.corners[forward ? i : j],
-                     block.corners[forward ? j : i]});
+      all.push_back(
+          {axis, problem.number[block.charts[axis][0]], problem.number[block.charts[axis][1]], block.corners[forward ? i : j], block.corners[forward ? j : i]});
     }
   }
   edges_ = distinct(all, complex.vertex_count);

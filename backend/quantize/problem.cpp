@@ -54,8 +54,7 @@ QuantizeProblem build_problem(const BlockComplex& complex, const PolycuboidMap& 
     for (int d = 0; d < 3; ++d) {
       const auto [low, high] = block.charts[d];
       const double distance = map.charts[high].value - map.charts[low].value;
-      problem.axes[d].terms.push_back(
-          {problem.number[low], problem.number[high], block.volume / distance, scale * options.axis_scale[d] * distance});
+      problem.axes[d].terms.push_back({problem.number[low], problem.number[high], block.volume / distance, scale * options.axis_scale[d] * distance});
       problem.axes[d].differences.push_back({problem.number[low], problem.number[high], 0});
     }
   }
@@ -72,8 +71,8 @@ QuantizeProblem build_problem(const BlockComplex& complex, const PolycuboidMap& 
     }
   }
   for (const auto& [d, low, high] : opposite_charts(complex)) {
-    problem.axes[d].differences.push_back({problem.number[low], problem.number[high], options.min_layers,
-                                           options.min_layers > 1 ? Difference::kLayers : Difference::kNone});
+    problem.axes[d].differences.push_back(
+        {problem.number[low], problem.number[high], options.min_layers, options.min_layers > 1 ? Difference::kLayers : Difference::kNone});
   }
   for (int i = 0; i < static_cast<int>(options.constraints.size()); ++i) {
     const DistanceConstraint& c = options.constraints[i];

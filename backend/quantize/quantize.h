@@ -14,12 +14,12 @@ struct DistanceConstraint {
   int low = 0, high = 0;  ///< chart indices
   int at_least = std::numeric_limits<int>::min();
   int at_most = std::numeric_limits<int>::max();
-  std::string name;  ///< for messages, e.g. "3 elements between Face2 and Face5"
+  std::string name;        ///< for messages, e.g. "3 elements between Face2 and Face5"
   bool may_yield = false;  ///< a bound that nobody asked for by name: left out where it contradicts others
 };
 
 struct QuantizeOptions {
-  double scale = 1;  ///< eta of section 6.2: target integer distance = scale * distance in the map; near 0 (or 0) gives the coarsest
+  double scale = 1;                           ///< eta of section 6.2: target integer distance = scale * distance in the map; near 0 (or 0) gives the coarsest
   std::array<double, 3> axis_scale{1, 1, 1};  ///< factor of scale per direction of the map
   std::vector<double> block_scale;            ///< factor of scale per block (regions); empty: 1
   int min_layers = 1;                         ///< elements at least between two boundary charts opposite each other
@@ -32,17 +32,16 @@ struct QuantizeOptions {
 };
 
 struct Quantization {
-  std::vector<int>
-      value;             ///< per chart (features included); smallest of each axis 0; a feature without sheet has that of the nearest chart
-  double objective = 0;  ///< Eq. 4
-  double bound = 0;      ///< proved lower bound
-  bool optimal = false;  ///< objective is proved: no better solution is left in the tree
+  std::vector<int> value;    ///< per chart (features included); smallest of each axis 0; a feature without sheet has that of the nearest chart
+  double objective = 0;      ///< Eq. 4
+  double bound = 0;          ///< proved lower bound
+  bool optimal = false;      ///< objective is proved: no better solution is left in the tree
   std::vector<int> yielded;  ///< QuantizeOptions::constraints that were left out, ascending
-  int c2_rounds = 0;     ///< times a solution was checked against C2
-  int cuts = 0;          ///< different C2 constraints that were violated on the way
-  int nodes = 0;         ///< of the search tree
-  int flows_solved = 0;    ///< flows found from nothing
-  int flows_repaired = 0;  ///< flows made from another node's
+  int c2_rounds = 0;         ///< times a solution was checked against C2
+  int cuts = 0;              ///< different C2 constraints that were violated on the way
+  int nodes = 0;             ///< of the search tree
+  int flows_solved = 0;      ///< flows found from nothing
+  int flows_repaired = 0;    ///< flows made from another node's
   double gap() const { return objective > bound ? (objective - bound) / objective : 0; }
 };
 

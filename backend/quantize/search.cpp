@@ -18,9 +18,7 @@ constexpr std::size_t kRepairs = 16;
 /// Rounds of rewards, and of those without a better bound.
 constexpr int kRewardRounds = 100, kIdleRounds = 3;
 
-std::array<const std::vector<int>*, 3> values_of(const std::array<AxisFlow, 3>& flows) {
-  return {&flows[0].values(), &flows[1].values(), &flows[2].values()};
-}
+std::array<const std::vector<int>*, 3> values_of(const std::array<AxisFlow, 3>& flows) { return {&flows[0].values(), &flows[1].values(), &flows[2].values()}; }
 
 }  // namespace
 

@@ -17,7 +17,7 @@ class Search {
   Search(const QuantizeProblem& problem, const MonotonePaths& paths, int node_limit, const Monitor& monitor);
 
   struct Outcome {
-    bool found = false;  ///< false: no integers satisfy all constraints
+    bool found = false;        ///< false: no integers satisfy all constraints
     int infeasible_axis = -1;  ///< an axis whose differences alone contradict each other
     AxisValues values;
   };
@@ -55,7 +55,7 @@ class Search {
   const Monitor& monitor_;
   std::vector<AxisNetwork> networks_;
   double to_integer_ = 0;
-  double tie_ = 0;  ///< objectives nearer than this are equal: the flows' weights are rounded
+  double tie_ = 0;                                 ///< objectives nearer than this are equal: the flows' weights are rounded
   std::array<std::vector<Difference>, 3> always_;  ///< C2 constraints with one alternative, sorted
   std::vector<Cut2> seen_;                         ///< sorted
   AxisValues best_;

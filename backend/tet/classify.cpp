@@ -12,8 +12,8 @@
 namespace polycube {
 namespace {
 
-constexpr double kFar = 1e-3;    // of the diagonal: nodes lie on their entity up to the CAD's own tolerance
-constexpr double kNear = 1e-6;   // of the diagonal: no doubt is left
+constexpr double kFar = 1e-3;   // of the diagonal: nodes lie on their entity up to the CAD's own tolerance
+constexpr double kNear = 1e-6;  // of the diagonal: no doubt is left
 constexpr int kProbes = 6;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -223,7 +223,8 @@ TetMesh classify(const RawMesh& raw, const CadModel& whole, const std::vector<Ca
       if (face == found.face_of.end()) throw Unusable("a boundary facet of the tetrahedra lies on no CAD face");
       faces.insert(face->second);
     }
-    const auto solid = std::find_if(solids.begin(), solids.end(), [&](const CadModel& s) { return std::set<int>(s.faces().begin(), s.faces().end()) == faces; });
+    const auto solid =
+        std::find_if(solids.begin(), solids.end(), [&](const CadModel& s) { return std::set<int>(s.faces().begin(), s.faces().end()) == faces; });
     if (solid == solids.end()) throw Unusable("the tetrahedra of a solid are not bounded by its faces");
     solid_of[tag] = static_cast<int>(solid - solids.begin());
   }

@@ -1,10 +1,10 @@
+#include "tet/worker/protocol.h"
+
 #include <cstdint>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <type_traits>
-
-#include "tet/worker/protocol.h"
 
 namespace polycube {
 namespace {

@@ -8,15 +8,15 @@
 namespace polycube {
 namespace {
 
-constexpr double kFinest = 6;       // smallest size, as a divisor of the target
+constexpr double kFinest = 6;  // smallest size, as a divisor of the target
 // On a face that makes out this share of the surface (a wire, a spring), finer as long as it gets no more than about twice this many triangles.
 constexpr double kMainFace = 0.25;
 constexpr double kMainTriangles = 8000;
-constexpr int kSamples = 9;         // of a CAD edge
+constexpr int kSamples = 9;  // of a CAD edge
 // The curvature that counts is exceeded on a quarter of the samples only: a cone's tip must not refine the whole cone.
 constexpr double kQuantile = 0.75;
-constexpr double kTiny = 1e-6;      // step in (u, v) to measure the speed of a parameter
-constexpr double kStep = 1e-5;      // step in space, of the diagonal
+constexpr double kTiny = 1e-6;  // step in (u, v) to measure the speed of a parameter
+constexpr double kStep = 1e-5;  // step in space, of the diagonal
 
 double quantile(std::vector<double> values) {
   if (values.empty()) return 0;

@@ -85,7 +85,8 @@ class Splitter {
 
  private:
   /// `dim`: of the new points' classification, 3 for those between solids.
-  void split_cut_corners(std::vector<Triangle>& triangles, std::vector<int>& faces, int dim, const std::vector<std::set<int>>& edges_at, const std::set<Segment>& segments) {
+  void split_cut_corners(std::vector<Triangle>& triangles, std::vector<int>& faces, int dim, const std::vector<std::set<int>>& edges_at,
+                         const std::set<Segment>& segments) {
     std::set<Segment> edges;
     for (const Triangle& t : triangles)
       for (std::size_t k = 0; k < 3; ++k) edges.insert(edge_key(t[k], t[(k + 1) % 3]));

@@ -132,7 +132,8 @@ TetMesh tetrahedralise(const CadModel& model, const TetOptions& options, const M
     check_complete(mesh, model);
     return mesh;
   };
-  return climb(model, options, classified, [&] { refuse_contacts(model); }, monitor);
+  return climb(
+      model, options, classified, [&] { refuse_contacts(model); }, monitor);
 }
 
 TetMesh tetrahedralise(const CadModel& whole, const std::vector<CadModel>& solids, const TetOptions& options, const Monitor& monitor) {

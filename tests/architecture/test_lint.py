@@ -1,6 +1,7 @@
 """Linters over all scripts: a finding is a failure."""
 
 import os
+import re
 import shutil
 import subprocess
 import unittest
@@ -9,6 +10,8 @@ from test_architecture import REPO, tracked
 
 #: pycodestyle's own defaults, which leave breaks at operators to the author, spaces in slices, the length of lines, and the names of the field (`l`).
 IGNORED = "E121,E123,E126,E203,E226,E24,E402,E501,E704,E741,W503,W504"
+
+CLANG_FORMAT = 14
 
 
 def scripts():
@@ -29,6 +32,13 @@ class Lint(unittest.TestCase):
 
     def test_shell(self):
         self.run_on(list(scripts()), "shellcheck")
+
+    def test_cpp(self):
+        """Versions of clang-format differ in small things: the tree is formatted with that of Debian 12."""
+        version = subprocess.run(["clang-format", "--version"], capture_output=True, text=True).stdout if shutil.which("clang-format") else ""
+        if not re.search(r"version {}\.".format(CLANG_FORMAT), version):
+            self.skipTest("clang-format {} is not there".format(CLANG_FORMAT))
+        self.run_on([name for name in tracked() if name.endswith((".cpp", ".h"))], "clang-format", "--dry-run", "--Werror")
 
     def test_python(self):
         self.run_on([name for name in tracked() if name.endswith(".py")], "pycodestyle", "--ignore=" + IGNORED)

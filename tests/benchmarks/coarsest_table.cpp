@@ -31,9 +31,8 @@ void print_row(const std::string& path) {
     HexMapOptions options;
     options.quantize.scale = 0;
     const HexMapResult r = hex_map(input, options, Monitor());
-    std::printf("%zu | %zu | %.2f | %d | %d | %s |\n", r.blocks.blocks.size(), r.hexes.mesh.hexes.size(),
-                r.blocks_seconds + r.quantize_seconds + r.hex_seconds, r.quantization.c2_rounds, r.quantization.nodes,
-                r.quantization.optimal ? "proved" : "not proved");
+    std::printf("%zu | %zu | %.2f | %d | %d | %s |\n", r.blocks.blocks.size(), r.hexes.mesh.hexes.size(), r.blocks_seconds + r.quantize_seconds + r.hex_seconds,
+                r.quantization.c2_rounds, r.quantization.nodes, r.quantization.optimal ? "proved" : "not proved");
   } catch (const std::exception& e) {
     std::printf("%s: %s\n", name.c_str(), e.what());
   }

@@ -20,8 +20,7 @@ testing::Example studs(int n) {
   testing::add_box(places, {0, 0, 0}, {2 * n + 1, 2 * n + 1, 1});
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) {
-      if (random() % 3 == 0)
-        testing::add_box(places, {2 * i + 1, 2 * j + 1, 0}, {2 * i + 2, 2 * j + 2, 2 + static_cast<int>(random() % 3)});
+      if (random() % 3 == 0) testing::add_box(places, {2 * i + 1, 2 * j + 1, 0}, {2 * i + 2, 2 * j + 2, 2 + static_cast<int>(random() % 3)});
     }
   }
   testing::Example e = testing::tetrahedralise(testing::voxels(places), 1);

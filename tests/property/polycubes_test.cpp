@@ -49,9 +49,9 @@ std::vector<std::pair<double, std::vector<int>>> assignments(const AxisProblem& 
   std::vector<std::pair<double, std::vector<int>>> found;
   std::vector<int> values(axis.charts.size(), 0);
   for (;;) {
-    const bool good = *std::min_element(values.begin(), values.end()) == 0 &&
-                      std::all_of(axis.differences.begin(), axis.differences.end(),
-                                  [&](const Difference& d) { return values[d.high] - values[d.low] >= d.at_least; });
+    const bool good =
+        *std::min_element(values.begin(), values.end()) == 0 &&
+        std::all_of(axis.differences.begin(), axis.differences.end(), [&](const Difference& d) { return values[d.high] - values[d.low] >= d.at_least; });
     if (good) found.push_back({objective(axis, values), values});
     std::size_t i = 0;
     while (i < values.size() && values[i] == most) values[i++] = 0;
@@ -70,12 +70,8 @@ double brute_force(const BlockComplex& blocks, const PolycuboidMap& map, const Q
     choices[d] = assignments(problem.axes[d], most);
     if (choices[d].empty()) return -1;
   }
-  const auto cost = [&](const std::array<std::size_t, 3>& at) {
-    return choices[0][at[0]].first + choices[1][at[1]].first + choices[2][at[2]].first;
-  };
-  std::priority_queue<std::pair<double, std::array<std::size_t, 3>>, std::vector<std::pair<double, std::array<std::size_t, 3>>>,
-                      std::greater<>>
-      open;
+  const auto cost = [&](const std::array<std::size_t, 3>& at) { return choices[0][at[0]].first + choices[1][at[1]].first + choices[2][at[2]].first; };
+  std::priority_queue<std::pair<double, std::array<std::size_t, 3>>, std::vector<std::pair<double, std::array<std::size_t, 3>>>, std::greater<>> open;
   std::set<std::array<std::size_t, 3>> seen;
   open.push({cost({0, 0, 0}), {0, 0, 0}});
   while (!open.empty()) {
@@ -108,21 +104,25 @@ enum class Kind { kBoxes, kDrilled, kTree, kChain, kSpiral, kSpring };
 
 Cells random_shape(std::mt19937& random, Kind kind, int size) {
   switch (kind) {
-    case Kind::kBoxes: return testing::random_cells(random, size, 4);
-    case Kind::kDrilled: return testing::drilled_box(random, size);
-    case Kind::kTree: return testing::box_tree(random, 2 * size);
-    case Kind::kChain: return testing::random_chain(random, 1 + size);
-    case Kind::kSpiral: return testing::flat_spiral(size, 2 + static_cast<int>(random() % 3));
-    case Kind::kSpring: return testing::spring(1 + size / 3, 2 + static_cast<int>(random() % 2));
+    case Kind::kBoxes:
+      return testing::random_cells(random, size, 4);
+    case Kind::kDrilled:
+      return testing::drilled_box(random, size);
+    case Kind::kTree:
+      return testing::box_tree(random, 2 * size);
+    case Kind::kChain:
+      return testing::random_chain(random, 1 + size);
+    case Kind::kSpiral:
+      return testing::flat_spiral(size, 2 + static_cast<int>(random() % 3));
+    case Kind::kSpring:
+      return testing::spring(1 + size / 3, 2 + static_cast<int>(random() % 2));
   }
   return {};
 }
 
 Kind kind_of(unsigned seed) { return static_cast<Kind>(seed % 6); }
 
-bool covers_itself(const Cells& cells) {
-  return std::set<testing::Place3>(cells.places.begin(), cells.places.end()).size() < cells.places.size();
-}
+bool covers_itself(const Cells& cells) { return std::set<testing::Place3>(cells.places.begin(), cells.places.end()).size() < cells.places.size(); }
 
 /// The blocks, or none and a failure that tells which example it was.
 BlockComplex blocks_of(const Example& e, const std::string& what) {

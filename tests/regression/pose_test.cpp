@@ -1,4 +1,6 @@
 // Turning, moving and scaling a part changes nothing in its mesh.
+#include "pipeline/pose.h"
+
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -6,7 +8,6 @@
 
 #include "label/frame.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/pose.h"
 #include "support/shapes.h"
 
 namespace polycube {

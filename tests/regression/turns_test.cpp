@@ -49,12 +49,14 @@ struct Part {
 
 std::vector<Part> parts() {
   const auto made = [](const char* name, const std::string& brep) { return Part{name, [brep] { return CadModel::from_brep(brep); }}; };
-  std::vector<Part> list{made("Notch", shapes::notched_box(10)), made("Bore", shapes::plate_with_hole(30, 20, 6, 4)), made("Chamfer", shapes::chamfered_box(10, 3))};
+  std::vector<Part> list{made("Notch", shapes::notched_box(10)), made("Bore", shapes::plate_with_hole(30, 20, 6, 4)),
+                         made("Chamfer", shapes::chamfered_box(10, 3))};
   const char* given = std::getenv("POLYCUBE_TURN_PARTS");
   std::istringstream files(given ? given : "");
   for (std::string file; std::getline(files, file, ':');) {
     std::string name = std::filesystem::path(file).stem().string();
-    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
     list.push_back({name, [file] { return CadModel::read(file); }});
   }
   return list;

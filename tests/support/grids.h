@@ -153,9 +153,7 @@ inline Grid make_grid(const TopoDS_Shape& shape, const std::array<int, 3>& size,
   return make_grid(brep_of(shape), size, occupied, place);
 }
 
-inline bool everywhere(int, int, int) {
-  return true;
-}
+inline bool everywhere(int, int, int) { return true; }
 
 /// Box 3 x 2 x 1.
 inline Grid box_grid(int n = 4) {
@@ -165,8 +163,7 @@ inline Grid box_grid(int n = 4) {
 
 /// L of legs 2 and thickness 1.
 inline Grid l_grid(int n = 4) {
-  const TopoDS_Shape shape =
-      BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(2, 2, 1).Shape(), BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), gp_Pnt(3, 3, 3)).Shape()).Shape();
+  const TopoDS_Shape shape = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(2, 2, 1).Shape(), BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), gp_Pnt(3, 3, 3)).Shape()).Shape();
   const double h = 1.0 / n;
   return make_grid(
       shape, {2 * n, 2 * n, n}, [=](int i, int j, int) { return i < n || j < n; }, [=](const Vec3& x) -> Vec3 { return h * x; });

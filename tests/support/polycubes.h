@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "blocks/blocks.h"
-#include "core/union_find.h"
 #include "core/charts.h"
 #include "core/hexahedron.h"
+#include "core/union_find.h"
 
 namespace polycube::testing {
 
@@ -57,9 +57,8 @@ inline void add_box(std::set<Place3>& places, const Place3& low, const Place3& h
 }
 
 inline void remove_box(std::set<Place3>& places, const Place3& low, const Place3& high) {
-  std::erase_if(places, [&](const Place3& p) {
-    return p[0] >= low[0] && p[0] < high[0] && p[1] >= low[1] && p[1] < high[1] && p[2] >= low[2] && p[2] < high[2];
-  });
+  std::erase_if(places,
+                [&](const Place3& p) { return p[0] >= low[0] && p[0] < high[0] && p[1] >= low[1] && p[1] < high[1] && p[2] >= low[2] && p[2] < high[2]; });
 }
 
 inline Cells box_cells(const Place3& size) {
@@ -91,8 +90,7 @@ inline Cells chain(const std::vector<int>& steps) {
 inline Cells flat_spiral(int corners, int length = 3) {
   std::vector<int> steps;
   const std::array<int, 4> directions{1, 3, 0, 2};
-  for (int c = 0; c <= corners; ++c)
-    steps.insert(steps.end(), static_cast<std::size_t>(length), directions[static_cast<std::size_t>(c % 4)]);
+  for (int c = 0; c <= corners; ++c) steps.insert(steps.end(), static_cast<std::size_t>(length), directions[static_cast<std::size_t>(c % 4)]);
   return chain(steps);
 }
 

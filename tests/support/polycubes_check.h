@@ -14,8 +14,8 @@ namespace polycube::testing {
 inline HexComplex expect_valid(const Example& e, const QuantizeOptions& options, const std::string& what, const BlockComplex& blocks) {
   const Quantization q = quantize(blocks, e.map, options, Monitor());
   const QuantizeReport report = check(blocks, e.map, options, q.value);
-  EXPECT_TRUE(report.good()) << what << " scale " << options.scale << ": c1 " << report.c1 << " opposite " << report.opposite << " c2 "
-                             << report.c2 << " constraints " << report.constraints;
+  EXPECT_TRUE(report.good()) << what << " scale " << options.scale << ": c1 " << report.c1 << " opposite " << report.opposite << " c2 " << report.c2
+                             << " constraints " << report.constraints;
   EXPECT_TRUE(q.optimal) << what;
   EXPECT_NEAR(report.objective, q.objective, 1e-9 * (1 + q.objective)) << what;
   EXPECT_NEAR(q.bound, q.objective, 1e-9 * (1 + q.objective)) << what;

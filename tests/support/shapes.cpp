@@ -40,9 +40,9 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
+#include <cmath>
 #include <gp.hxx>
 #include <gp_Circ.hxx>
-#include <cmath>
 #include <numbers>
 #include <sstream>
 #include <vector>
@@ -218,15 +218,15 @@ std::string loft(double size, double height) {
   sections.AddWire(square.Wire());
   BRepBuilderAPI_MakeWire circle;
   const gp_Circ curve(gp_Ax2({0, 0, height}, {0, 0, 1}), size / 3);
-  for (int k = 0; k < 4; ++k)
-    circle.Add(BRepBuilderAPI_MakeEdge(curve, (k - 2.5) * std::numbers::pi / 2, (k - 1.5) * std::numbers::pi / 2).Edge());
+  for (int k = 0; k < 4; ++k) circle.Add(BRepBuilderAPI_MakeEdge(curve, (k - 2.5) * std::numbers::pi / 2, (k - 1.5) * std::numbers::pi / 2).Edge());
   sections.AddWire(circle.Wire());
   return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
 }
 
 std::string turned(double radius, double height, double groove) {
   const double middle = height / 2;
-  const gp_Pnt foot(0, 0, 0), out(radius, 0, 0), below(radius, 0, middle - groove), above(radius, 0, middle + groove), top(radius, 0, height), tip(0, 0, height);
+  const gp_Pnt foot(0, 0, 0), out(radius, 0, 0), below(radius, 0, middle - groove), above(radius, 0, middle + groove), top(radius, 0, height),
+      tip(0, 0, height);
   BRepBuilderAPI_MakeWire profile;
   profile.Add(BRepBuilderAPI_MakeEdge(foot, out).Edge());
   profile.Add(BRepBuilderAPI_MakeEdge(out, below).Edge());
@@ -330,8 +330,8 @@ std::string slots_through_hole() {
 
 std::string hole_past_chamfer(double past, double wider) {
   const double leg = 5.544, tip = leg + past;
-  return machined_box(20, {{1, {{20 - leg, -.01}, {20.01, leg + .01}, {20.01, -.01}}, -1, 21},
-                           {2, {{tip, 6.746}, {tip - 3.1, 7.87}, {tip - 1.1, 10.346 + wider}}, -1, 21}});
+  return machined_box(
+      20, {{1, {{20 - leg, -.01}, {20.01, leg + .01}, {20.01, -.01}}, -1, 21}, {2, {{tip, 6.746}, {tip - 3.1, 7.87}, {tip - 1.1, 10.346 + wider}}, -1, 21}});
 }
 
 std::string hexagon_bolt(double width, double shank) {
@@ -372,9 +372,7 @@ std::string loosened(const std::string& brep, double tolerance) {
   return text(shape);
 }
 
-std::string compound(const std::string& a, const std::string& b) {
-  return text(compound_of({parse(a), parse(b)}));
-}
+std::string compound(const std::string& a, const std::string& b) { return text(compound_of({parse(a), parse(b)})); }
 
 std::string fused(const std::vector<std::string>& breps) {
   TopTools_ListOfShape arguments;

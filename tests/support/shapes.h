@@ -8,32 +8,34 @@
 
 namespace polycube::shapes {
 
-std::string box(double x, double y, double z);                      ///< a corner at the origin
-std::string cylinder(double radius, double height);                 ///< about +Z from the origin
-std::string cone(double radius, double top_radius, double height);  ///< top_radius 0: with its tip
-std::string sphere(double radius);                                  ///< centre at the origin
-std::string torus(double major, double minor);                      ///< about +Z, centre at the origin
-std::string tube(double radius, double bore, double height);        ///< about +Z from the origin
+std::string box(double x, double y, double z);                             ///< a corner at the origin
+std::string cylinder(double radius, double height);                        ///< about +Z from the origin
+std::string cone(double radius, double top_radius, double height);         ///< top_radius 0: with its tip
+std::string sphere(double radius);                                         ///< centre at the origin
+std::string torus(double major, double minor);                             ///< about +Z, centre at the origin
+std::string tube(double radius, double bore, double height);               ///< about +Z from the origin
 std::string plate_with_hole(double x, double y, double z, double radius);  ///< box with a through bore along Z in its middle
-std::string l_bracket(double leg, double thickness, double width);  ///< L in the XZ plane, extruded along Y; one concave edge
-std::string notched_box(double size);                               ///< cube minus a corner cube of half its size
-std::string filleted_box(double size, double radius);               ///< cube with all twelve edges rounded
-std::string chamfered_box(double size, double leg);                 ///< cube with one edge along Z cut at 45 degrees
-std::string pyramid(double side, double height);                    ///< square base in z = 0 about the origin
-std::string tetrahedron(double edge);                               ///< regular
-std::string bevelled_box(double size, double leg);                  ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
-std::string hollow_box(double size);                                ///< cube with a cubic void: two shells
-std::string loft(double size, double height);                       ///< square to circle: ruled B-spline sides
-std::string turned(double radius, double height, double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
-std::string forked_bar(double radius, double arm);                  ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
-std::string tangent_arm(double radius, double bore);                ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
-std::string ribbed_plate(double width, double slope);               ///< plate with a rib along all of it, a right triangle that ends flush, its hypotenuse steep by slope : 1
-std::string lens(double width, double height);                        ///< prism along Z over two arcs that meet at 60 degrees, `width` apart along X
-std::string half_cylinder(double radius, double height);            ///< cut by the plane y = 0, y >= 0 stays
+std::string l_bracket(double leg, double thickness, double width);         ///< L in the XZ plane, extruded along Y; one concave edge
+std::string notched_box(double size);                                      ///< cube minus a corner cube of half its size
+std::string filleted_box(double size, double radius);                      ///< cube with all twelve edges rounded
+std::string chamfered_box(double size, double leg);                        ///< cube with one edge along Z cut at 45 degrees
+std::string pyramid(double side, double height);                           ///< square base in z = 0 about the origin
+std::string tetrahedron(double edge);                                      ///< regular
+std::string bevelled_box(double size, double leg);                         ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
+std::string hollow_box(double size);                                       ///< cube with a cubic void: two shells
+std::string loft(double size, double height);                              ///< square to circle: ruled B-spline sides
+std::string turned(double radius, double height,
+                   double groove);                    ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
+std::string forked_bar(double radius, double arm);    ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
+std::string tangent_arm(double radius, double bore);  ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
+std::string ribbed_plate(double width,
+                         double slope);         ///< plate with a rib along all of it, a right triangle that ends flush, its hypotenuse steep by slope : 1
+std::string lens(double width, double height);  ///< prism along Z over two arcs that meet at 60 degrees, `width` apart along X
+std::string half_cylinder(double radius, double height);  ///< cut by the plane y = 0, y >= 0 stays
 
 std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it; the bore's seam ends in the middle of the rib's upper end
 
-std::string oblique_bore();   ///< box of 20 x 14 x 12, a bore 20 degrees off Z comes out of its side x = 20 and leaves a wedge there
+std::string oblique_bore();  ///< box of 20 x 14 x 12, a bore 20 degrees off Z comes out of its side x = 20 and leaves a wedge there
 std::string box_with_square(double x, double y, double z, double from, double to);  ///< a square from (from, from) to (to, to) drawn on its top
 std::string drilled_block();  ///< 20 x 20 x 16, a hole of radius 1.2 with a drill's tip from above; cut in two at y = 10 and put together: its faces are halves
 
@@ -44,10 +46,12 @@ struct Prism {
   double from = 0, to = 0;
 };
 std::string machined_box(double size, const std::vector<Prism>& cuts);  ///< cube with a corner at the origin, less the cuts
-std::string hole_through_slot();  ///< cube of 20, a slot along Y, a hexagonal hole along Z that breaks through its wall: two tips of 25 degrees on the slot's floor and ceiling
-std::string slots_through_hole(); ///< cube of 20, a triangular hole along X, a slot along Y through its edge
+std::string hole_through_slot();   ///< cube of 20, a slot along Y, a hexagonal hole along Z that breaks through its wall: two tips of 25 degrees on the slot's
+                                   ///< floor and ceiling
+std::string slots_through_hole();  ///< cube of 20, a triangular hole along X, a slot along Y through its edge
 std::string hexagon_bolt(double width, double shank);  ///< width across flats, which the chamfer's cone touches; head alone where the shank has no length
-std::string hole_past_chamfer(double past, double wider);  ///< cube of 20, a chamfer, a triangular hole along Z (wider at its far end) whose edge is past the chamfer's
+std::string hole_past_chamfer(double past,
+                              double wider);  ///< cube of 20, a chamfer, a triangular hole along Z (wider at its far end) whose edge is past the chamfer's
 
 /// The shape turned by `degrees` about the direction (1, 2, 3) and moved by (x, y, z).
 std::string moved(const std::string& brep, double degrees, double x, double y, double z);
@@ -76,9 +80,9 @@ void write_iges(const std::string& brep, const std::string& path, const std::str
 std::string crossed_box(double size);
 
 /// Not solids, for refusals.
-std::string open_box(double size);   ///< shell of five faces
-std::string open_solid(double size); ///< a solid of that shell
+std::string open_box(double size);    ///< shell of five faces
+std::string open_solid(double size);  ///< a solid of that shell
 std::string loose_face(double size);
-std::string flat_solid(double size); ///< a solid whose faces all lie in one plane
+std::string flat_solid(double size);  ///< a solid whose faces all lie in one plane
 
 }  // namespace polycube::shapes

@@ -33,8 +33,8 @@ inline TetMesh tet_grid(int nx, int ny, int nz, double size = 1) {
           }
           if (o >= 3) std::swap(tet[2], tet[3]);  // odd orders are mirrored
           mesh.tets.push_back(tet);
-          for (const Triangle& f : {Triangle{tet[1], tet[2], tet[3]}, Triangle{tet[0], tet[3], tet[2]}, Triangle{tet[0], tet[1], tet[3]},
-                                    Triangle{tet[0], tet[2], tet[1]}}) {
+          for (const Triangle& f :
+               {Triangle{tet[1], tet[2], tet[3]}, Triangle{tet[0], tet[3], tet[2]}, Triangle{tet[0], tet[1], tet[3]}, Triangle{tet[0], tet[2], tet[1]}}) {
             Triangle key = f;
             std::sort(key.begin(), key.end());
             ++open.try_emplace(key, f, 0).first->second.second;
@@ -49,8 +49,10 @@ inline TetMesh tet_grid(int nx, int ny, int nz, double size = 1) {
     mesh.triangles.push_back(facet.first);
     for (int d = 0; d < 3; ++d) {
       const auto all = [&](double x) { return std::all_of(key.begin(), key.end(), [&](int n) { return std::abs(mesh.points[n][d] - x) < 1e-12; }); };
-      if (all(top[d])) mesh.triangle_face.push_back(2 * d + 1);
-      else if (all(0)) mesh.triangle_face.push_back(2 * d + 2);
+      if (all(top[d]))
+        mesh.triangle_face.push_back(2 * d + 1);
+      else if (all(0))
+        mesh.triangle_face.push_back(2 * d + 2);
     }
   }
   return mesh;

@@ -38,8 +38,8 @@ constexpr std::array kFiner{1.25, 1.6, 2.0};
 constexpr int kRoomRounds = 3;
 // Times that the integers are found anew for what stands beside each other: what is left after them is little.
 constexpr int kNeighbourRounds = 3;
-// Number of cells asked for: how far off the grid's may be (logarithm), and with padding; the number goes with the 2.5th power of the scale or less, where bounds
-// hold some of them; a scale that many times off is not tried.
+// Number of cells asked for: how far off the grid's may be (logarithm), and with padding; the number goes with the 2.5th power of the scale or less, where
+// bounds hold some of them; a scale that many times off is not tried.
 constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1, kCountPower = 0.4, kCountReach = 8;
 constexpr int kCountRounds = 8, kRecounts = 2;
 // Times that round CAD edges get more cells.
@@ -73,7 +73,8 @@ double typical_edge(const HexMesh& mesh) {
 
 template <class Mesh>
 Score score_of(double least, const Mesh& m) {
-  return {static_cast<int>(m.association.lost_edges.size()), static_cast<int>(m.association.lost_vertices.size()), least, free_scaled_jacobian(m.mesh, m.association)};
+  return {static_cast<int>(m.association.lost_edges.size()), static_cast<int>(m.association.lost_vertices.size()), least,
+          free_scaled_jacobian(m.mesh, m.association)};
 }
 
 StageFailed inverted(const FitReport& fitted) {
@@ -351,8 +352,8 @@ class Evaluator::Work {
   Routed routed(const Draft& draft, const HexComplex& complex) {
     Routed result;
     const HexBoundary boundary{complex.mesh.points, complex.quads, complex.quad_chart, complex.quad_triangle};
-    result.association =
-        clock_.stage("pad", [&] { return associate(model_, draft.structure->tets, draft.structure->map.charts, boundary, draft.options, monitor_, &result.crowded); });
+    result.association = clock_.stage(
+        "pad", [&] { return associate(model_, draft.structure->tets, draft.structure->map.charts, boundary, draft.options, monitor_, &result.crowded); });
     return result;
   }
 
@@ -418,7 +419,7 @@ class Evaluator::Work {
   const int fits_;
   int fits_left_;
   std::map<int, int> more_elements_;  // per round CAD edge, where a grid gave it fewer than it needs
-  double grid_share_ = 1;  // of the grid's cells among all, where a number of them is asked for
+  double grid_share_ = 1;             // of the grid's cells among all, where a number of them is asked for
 };
 
 Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor)
@@ -488,7 +489,9 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
     std::string faces;
     for (std::size_t i = 0; i < std::min(patch.size(), kNamed); ++i) faces += (i == 0 ? "" : ", ") + name({2, patch[i]});
     if (patch.size() > kNamed) faces += " and " + std::to_string(patch.size() - kNamed) + " more";
-    r.warnings.push_back(faces + " are one surface to the mesh, as the feature angle asks: the borders of their mesh faces are off the CAD edges between them, and their areas differ from the CAD's");
+    r.warnings.push_back(faces +
+                         " are one surface to the mesh, as the feature angle asks: the borders of their mesh faces are off the CAD edges between them, and "
+                         "their areas differ from the CAD's");
   }
   return result;
 }

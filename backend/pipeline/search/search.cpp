@@ -109,9 +109,7 @@ bool better(const Score& a, const Score& b) {
   return worth(a) > worth(b);
 }
 
-bool good_cells(const Score& score) {
-  return score.least >= kGoodScaledJacobian || score.free_least >= kGoodScaledJacobian;
-}
+bool good_cells(const Score& score) { return score.least >= kGoodScaledJacobian || score.free_least >= kGoodScaledJacobian; }
 
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {
   const bool patient = fits_done >= budget.patience && score.least >= kGoodScaledJacobian / 2;

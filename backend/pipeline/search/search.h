@@ -39,17 +39,17 @@ struct Made {
 /// What became of a plan.
 struct Outcome {
   enum class Kind {
-    kMesh,       ///< a valid mesh
+    kMesh,  ///< a valid mesh
     kFailed,
     kDuplicate,  ///< the same as an earlier one: not done again
     kPostponed,  ///< Plan::may_wait, and its labels are doubtful
   };
   Kind kind = Kind::kFailed;
-  std::optional<Score> score;    ///< of a mesh
+  std::optional<Score> score;  ///< of a mesh
   std::optional<Failure> failure;
   std::shared_ptr<const Made> made;  ///< the mesh, or the draft that a plan that surrenders edges may start from; null where it came to neither
-  int faults = 0;                ///< of a draft that is no mesh: inverted cells and lost edges
-  int fits = 0;                  ///< that it took
+  int faults = 0;                    ///< of a draft that is no mesh: inverted cells and lost edges
+  int fits = 0;                      ///< that it took
 };
 
 struct Attempt {
@@ -68,8 +68,8 @@ struct Budget {
 /// The budget of an effort: quick, normal or thorough.
 Budget budget_of(const std::string& effort);
 
-/// Tries one plan with at most so many fits; `from`: the draft that a surrender starts from. No side effect that another plan could see. What it throws fails its
-/// plan alone, Cancelled aside.
+/// Tries one plan with at most so many fits; `from`: the draft that a surrender starts from. No side effect that another plan could see. What it throws fails
+/// its plan alone, Cancelled aside.
 using Evaluate = std::function<Outcome(const Plan&, const Made* from, int fits)>;
 
 /// The plans in order, as far as they are needed: those that keep all CAD edges; then, while there is no mesh, surrender in the draft with fewest faults
@@ -100,8 +100,8 @@ struct SearchResult {
   int tried = 0;
 };
 
-/// The best mesh. Throws what the plan that came furthest failed by; Cancelled where the user says so, or time is out before there is a mesh; InvalidInput of the
-/// first plan at once: it is about what the user demands. `hurry`: whether time runs short; may be empty.
+/// The best mesh. Throws what the plan that came furthest failed by; Cancelled where the user says so, or time is out before there is a mesh; InvalidInput of
+/// the first plan at once: it is about what the user demands. `hurry`: whether time runs short; may be empty.
 SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor, const std::function<bool()>& hurry = {});
 
 }  // namespace polycube

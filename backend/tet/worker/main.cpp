@@ -78,7 +78,8 @@ void run(const std::string& part, const WorkerSetting& setting, const std::strin
   GmshSession session;
   gmsh::vectorpair shapes;
   if (setting.heal)
-    for (const char* option : {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces", "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids"})
+    for (const char* option :
+         {"Geometry.OCCFixDegenerated", "Geometry.OCCFixSmallEdges", "Geometry.OCCFixSmallFaces", "Geometry.OCCSewFaces", "Geometry.OCCMakeSolids"})
       session.set(option, 1);
   gmsh::model::occ::importShapes(part, shapes, true, "brep");
   gmsh::model::occ::synchronize();

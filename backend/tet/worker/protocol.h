@@ -14,12 +14,12 @@ constexpr int kCannotWrite = 3;
 
 /// One rung of the ladder with its sizes.
 struct WorkerSetting {
-  int surface_algorithm = 6;       ///< Gmsh's Mesh.Algorithm
-  int volume_algorithm = 1;        ///< Gmsh's Mesh.Algorithm3D
-  bool heal = false;               ///< OCCT's shape healing by Gmsh before meshing; may change the numbering
-  double size = 0, min_size = 0;   ///< mm
-  std::vector<double> edge_size;   ///< mm, per CAD edge
-  std::vector<double> face_size;   ///< mm, per CAD face
+  int surface_algorithm = 6;      ///< Gmsh's Mesh.Algorithm
+  int volume_algorithm = 1;       ///< Gmsh's Mesh.Algorithm3D
+  bool heal = false;              ///< OCCT's shape healing by Gmsh before meshing; may change the numbering
+  double size = 0, min_size = 0;  ///< mm
+  std::vector<double> edge_size;  ///< mm, per CAD edge
+  std::vector<double> face_size;  ///< mm, per CAD face
 };
 
 /// Gmsh's mesh with Gmsh's own entity tags.

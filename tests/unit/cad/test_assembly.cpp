@@ -72,17 +72,20 @@ TEST(Assembly, SolidsApartOrThatMeetInAnEdgeHaveNoInterface) {
 
 TEST(Assembly, OverlapsAreRefusedWithTheirVolume) {
   const auto refused = [](const std::string& a, const std::string& b) { return refusal([&] { assembly(shapes::compound(a, b)); }); };
-  EXPECT_THAT(refused(shapes::box(2, 2, 2), shapes::moved(shapes::box(2, 2, 2), 0, 1, 0, 0)), HasSubstr("Solid1 and Solid2 overlap: they have 4 mm^3 in common"));
+  EXPECT_THAT(refused(shapes::box(2, 2, 2), shapes::moved(shapes::box(2, 2, 2), 0, 1, 0, 0)),
+              HasSubstr("Solid1 and Solid2 overlap: they have 4 mm^3 in common"));
   // One inside the other, which touches none of its faces.
   EXPECT_THAT(refused(shapes::box(4, 4, 4), shapes::moved(shapes::box(1, 1, 1), 0, 1, 1, 1)), HasSubstr("1 mm^3 in common"));
 }
 
 TEST(Assembly, TheSolidAtFaultIsNamed) {
-  EXPECT_THAT(refusal([] { assembly(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::open_solid(1), 0, 5, 0, 0))); }), HasSubstr("Solid2: the shape is open at Edge"));
+  EXPECT_THAT(refusal([] { assembly(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::open_solid(1), 0, 5, 0, 0))); }),
+              HasSubstr("Solid2: the shape is open at Edge"));
 }
 
 TEST(Assembly, LooseEntitiesAreToldOfTheWhole) {
-  const Assembly two = assembly(shapes::compound(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::loose_face(1), 0, 0, 0, 9)), shapes::moved(shapes::box(1, 1, 1), 0, 5, 0, 0)));
+  const Assembly two = assembly(shapes::compound(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::loose_face(1), 0, 0, 0, 9)),
+                                                 shapes::moved(shapes::box(1, 1, 1), 0, 5, 0, 0)));
   EXPECT_THAT(two.warnings, ElementsAre("left out beside the solid: 1 loose face"));
   EXPECT_TRUE(two.solids[0].warnings().empty());
 }

@@ -60,7 +60,8 @@ TEST(Conform, AnInclusionIsNoPartOfTheOuterBoundary) {
 
 TEST(Conform, WhatMeetsInAnEdgeTooIsRefused) {
   try {
-    joined({shapes::box(2, 2, 2), shapes::moved(shapes::box(2, 2, 2), 0, 2, 0, 0), shapes::moved(shapes::box(2, 2, 2), 0, 4, 2, 0), shapes::moved(shapes::box(6, 4, 2), 0, 0, 0, 2)});
+    joined({shapes::box(2, 2, 2), shapes::moved(shapes::box(2, 2, 2), 0, 2, 0, 0), shapes::moved(shapes::box(2, 2, 2), 0, 4, 2, 0),
+            shapes::moved(shapes::box(6, 4, 2), 0, 0, 0, 2)});
     FAIL() << "accepted";
   } catch (const StageFailed& error) {
     EXPECT_EQ(error.stage(), "interfaces");

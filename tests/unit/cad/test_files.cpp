@@ -22,9 +22,9 @@
 namespace polycube {
 namespace {
 
-using std::numbers::pi;
 using files::refusal;
 using files::TestFile;
+using std::numbers::pi;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -291,13 +291,20 @@ TEST(Files, AnyDamageEndsInAModelOrARefusal) {
       std::string text = whole;
       const std::size_t at = below(text.size()), from = below(text.size()), length = below(200);
       switch (round % 5) {
-        case 0: text.resize(at); break;
-        case 1: text[at] = static_cast<char>(text[at] ^ (1 << (length % 8))); break;
+        case 0:
+          text.resize(at);
+          break;
+        case 1:
+          text[at] = static_cast<char>(text[at] ^ (1 << (length % 8)));
+          break;
         case 2:
           for (std::size_t k = 0; k <= length % 20; ++k) text[below(text.size())] = letters[below(letters.size())];
           break;
-        case 3: text.erase(at, length); break;
-        default: text.insert(at, whole.substr(from, length));
+        case 3:
+          text.erase(at, length);
+          break;
+        default:
+          text.insert(at, whole.substr(from, length));
       }
       file.write(text);
       const Ending end = ending(file.path());

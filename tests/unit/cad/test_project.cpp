@@ -1,14 +1,14 @@
+#include <gtest/gtest.h>
+
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <Eigen/Geometry>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 #include <random>
 #include <sstream>
 #include <thread>
@@ -53,7 +53,8 @@ std::vector<Vec3> points_around(const CadModel& model, int count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-0.2, 1.2);
   std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) points.push_back(model.box_min() + Vec3(unit(random), unit(random), unit(random)).cwiseProduct(model.box_max() - model.box_min()));
+  for (int i = 0; i < count; ++i)
+    points.push_back(model.box_min() + Vec3(unit(random), unit(random), unit(random)).cwiseProduct(model.box_max() - model.box_min()));
   return points;
 }
 

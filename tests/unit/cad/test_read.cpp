@@ -16,9 +16,9 @@
 namespace polycube {
 namespace {
 
-using std::numbers::pi;
 using files::refusal;
 using files::TestFile;
+using std::numbers::pi;
 using ::testing::HasSubstr;
 
 CadModel model(const std::string& brep) { return CadModel::from_brep(brep); }
@@ -202,8 +202,9 @@ TEST(Read, RefusesDamagedText) {
 
 TEST(Read, Files) {
   EXPECT_THAT(refusal([] { CadModel::read("/nowhere/part.step"); }), HasSubstr("no such file"));
-  const TestFile empty("empty.step", ""), text("text.step", "Dear Sir,\nthis is a letter.\n"), brep("box.brep", shapes::box(1, 2, 3)), odd("box.stl", shapes::box(1, 2, 3)),
-      header("header.stp", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"), bad("text.brep", "Dear Sir,\n");
+  const TestFile empty("empty.step", ""), text("text.step", "Dear Sir,\nthis is a letter.\n"), brep("box.brep", shapes::box(1, 2, 3)),
+      odd("box.stl", shapes::box(1, 2, 3)), header("header.stp", "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"),
+      bad("text.brep", "Dear Sir,\n");
   EXPECT_THAT(refusal([&] { CadModel::read(empty.path()); }), HasSubstr("empty"));
   for (const TestFile* file : {&text, &odd, &header, &bad}) {
     const std::string line = refusal([&] { CadModel::read(file->path()); });

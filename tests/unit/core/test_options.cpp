@@ -121,7 +121,8 @@ TEST(Options, DivisionsAndSizesReadBackAsTheSame) {
 }
 
 TEST(Options, RefusesBadDivisionsAndSizes) {
-  for (const char* bad : {"Edge4", "Edge=3", "Edge0=3", "Edge4=", "Edge4=0", "Edge4=..", "Edge4=5..2", "Edge4=1.5", "Face1=3", "Face1-Edge2=3", "Edge4=9999999"})
+  for (const char* bad :
+       {"Edge4", "Edge=3", "Edge0=3", "Edge4=", "Edge4=0", "Edge4=..", "Edge4=5..2", "Edge4=1.5", "Face1=3", "Face1-Edge2=3", "Edge4=9999999"})
     EXPECT_THAT(complaint({{"divisions", bad}}), HasSubstr("--divisions")) << bad;
   for (const char* bad : {"Face1", "Face0=1", "Edge1=1", "W=1", "X=0", "X=-1", "X=nan", "X=1,X=2", "X=1mm"})
     EXPECT_THAT(complaint({{"sizes", bad}}), HasSubstr("--sizes")) << bad;

@@ -1,10 +1,10 @@
-#include "core/parallel.h"
-
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <stdexcept>
 #include <vector>
+
+#include "core/parallel.h"
 
 namespace polycube {
 namespace {
@@ -35,7 +35,11 @@ TEST(Parallel, LoopsInsideLoopsComeToAnEnd) {
 
 TEST(Parallel, AnExceptionArrivesAndTheNextLoopWorks) {
   for (int threads : {1, 3}) {
-    const auto fail = [&] { for_chunks(100, 1, threads, [](int c, int, int) { if (c == 40) throw std::runtime_error("forty"); }); };
+    const auto fail = [&] {
+      for_chunks(100, 1, threads, [](int c, int, int) {
+        if (c == 40) throw std::runtime_error("forty");
+      });
+    };
     EXPECT_THROW(fail(), std::runtime_error);
     std::atomic<int> calls{0};
     for_chunks(100, 1, threads, [&](int, int, int) { ++calls; });

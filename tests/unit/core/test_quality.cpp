@@ -1,11 +1,10 @@
 // Cells whose measures are known from the definitions.
-#include "core/quality.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/hexahedron.h"
+#include "core/quality.h"
 
 namespace polycube {
 namespace {
@@ -92,7 +91,8 @@ TEST(Quality, ACellCanBeInvertedInsideOnly) {
   const Cell brick = cell([](const Vec3& p) { return Vec3(2 * p[0], 3 * p[1], 8 * p[2]); });
   EXPECT_NEAR(least_inner_determinant(brick.points, brick.hex), 48.0 / 8, 1e-12);
   EXPECT_NEAR(hex_volume(brick.points, brick.hex), 48, 1e-12);
-  const Cell warped{{{-0.4, 0, -0.8}, {0.8, -0.3, -0.7}, {0.3, 0.8, 0.6}, {0.9, 0.6, 0.4}, {0, 0.5, 1.2}, {1.6, -0.4, 1.2}, {1.8, 1.4, 0.6}, {-0.5, 1.9, 0.7}}, brick.hex};
+  const Cell warped{{{-0.4, 0, -0.8}, {0.8, -0.3, -0.7}, {0.3, 0.8, 0.6}, {0.9, 0.6, 0.4}, {0, 0.5, 1.2}, {1.6, -0.4, 1.2}, {1.8, 1.4, 0.6}, {-0.5, 1.9, 0.7}},
+                    brick.hex};
   EXPECT_GT(scaled_jacobian(warped.points, warped.hex), 0.2);
   EXPECT_LT(least_inner_determinant(warped.points, warped.hex), -0.01);
 }

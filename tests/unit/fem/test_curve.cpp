@@ -11,9 +11,7 @@
 namespace polycube {
 namespace {
 
-FemMesh build(const Example& e, int threads = 1) {
-  return build_fem_mesh(e.model, e.mesh, e.association, {.order = 2, .threads = threads}, Monitor());
-}
+FemMesh build(const Example& e, int threads = 1) { return build_fem_mesh(e.model, e.mesh, e.association, {.order = 2, .threads = threads}, Monitor()); }
 
 /// The least ratio of a Jacobian to that with straight edges: corners, Gauss points, middles of edges and faces.
 double least_share(const FemMesh& mesh) {
@@ -69,9 +67,7 @@ TEST(Curve, OnlyNodesOnTheCadLeaveTheMiddleInGoodCells) {
 TEST(Curve, WhatWouldSpoilACellIsStraightAndNamed) {
   Example e = box_example(2);
   Association& a = e.association;
-  const auto stands_at = [&](std::size_t q, double z) {
-    return std::ranges::all_of(a.quads[q], [&](int p) { return e.mesh.points[p][2] == z; });
-  };
+  const auto stands_at = [&](std::size_t q, double z) { return std::ranges::all_of(a.quads[q], [&](int p) { return e.mesh.points[p][2] == z; }); };
   int bottom = -1;
   for (std::size_t q = 0; q < a.quads.size(); ++q)
     if (stands_at(q, 0)) bottom = a.quad_patch[q];

@@ -111,7 +111,8 @@ TEST_F(Write, EveryFormatGivesAFileAndNothingElse) {
 }
 
 TEST_F(Write, SameMeshSameBytes) {
-  for (const char* suffix : {".inp", ".unv", ".vtu", ".mesh"}) EXPECT_EQ(written(box(1), std::string("a") + suffix), written(box(1), std::string("b") + suffix));
+  for (const char* suffix : {".inp", ".unv", ".vtu", ".mesh"})
+    EXPECT_EQ(written(box(1), std::string("a") + suffix), written(box(1), std::string("b") + suffix));
 }
 
 TEST_F(Write, RefusesUnknownSuffixAndMissingFolder) {

@@ -82,9 +82,7 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
   Box box;
   auto& [grid, model, graph, entities, targets, monitor] = box;
   const CellRegion whole{{0}, {}};
-  const auto energy = [&](double floor) {
-    return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, {}, 0).energy;
-  };
+  const auto energy = [&](double floor) { return Descent(grid.mesh, graph, entities, 1, monitor).run({0, 1, 2, floor}, targets, whole, {}, {}, 0).energy; };
   // At right angles (scaled Jacobian 1) the eight corners add 1 / floor^2 * floor^16 each.
   EXPECT_NEAR(energy(0.5) - energy(0), 8 * std::pow(0.5, 14), 1e-12);
   EXPECT_NEAR(energy(1.25) - energy(0), 8 * std::pow(1.25, 14), 1e-9);
@@ -94,7 +92,7 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
 TEST(Descent, WatchedCellsAreLookedAtInside) {
   Box box;
   auto& [grid, model, graph, entities, targets, monitor] = box;
-  const std::array<Vec3, 8> hollow{Vec3(0.74, 0.09, 0.29), Vec3(1.28, -0.21, 0.67), Vec3(1.06, 1.6, 0.34),  Vec3(0.05, 1.5, 0.61),
+  const std::array<Vec3, 8> hollow{Vec3(0.74, 0.09, 0.29),  Vec3(1.28, -0.21, 0.67), Vec3(1.06, 1.6, 0.34),  Vec3(0.05, 1.5, 0.61),
                                    Vec3(0.57, -0.03, 0.77), Vec3(0.63, -0.01, 0.78), Vec3(1.11, 1.61, 0.37), Vec3(1.23, 1.12, 2.01)};
   CellRegion region;
   for (int h = 0; h < static_cast<int>(grid.mesh.hexes.size()); ++h) {

@@ -36,9 +36,7 @@ void shake(HexMesh& mesh, double size) {
   }
 }
 
-PaddedMesh padded(const Grid& grid) {
-  return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{});
-}
+PaddedMesh padded(const Grid& grid) { return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{}); }
 
 struct Case {
   const char* name;
@@ -65,14 +63,13 @@ TEST_P(FitShapes, UntanglesAShakenMeshOntoTheCad) {
   EXPECT_DOUBLE_EQ(summarise(p.mesh).min_scaled_jacobian, report.min_scaled_jacobian);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Grids, FitShapes,
-    ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
-                      Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97}, Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95},
-                      Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9}, Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94},
-                      Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
-                      Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
-    [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Grids, FitShapes,
+                         ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
+                                           Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97},
+                                           Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95}, Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9},
+                                           Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94}, Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
+                                           Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
   const Grid grid = filleted_grid(12);
@@ -137,8 +134,7 @@ TEST(Fit, BeginsWithTheMostPromisingOfSeveral) {
   // Where nothing is good enough all are fitted, and the best counts.
   PaddedMesh bare{grid.mesh, grid.association}, layered = padded(grid);
   const FitChoice choice = fit_best(
-      model, {{bare.mesh, bare.association}, {layered.mesh, layered.association}}, {}, 2,
-      [](std::size_t, const FitReport&) { return false; }, Monitor{});
+      model, {{bare.mesh, bare.association}, {layered.mesh, layered.association}}, {}, 2, [](std::size_t, const FitReport&) { return false; }, Monitor{});
   EXPECT_EQ(choice.index, 1u);
   EXPECT_EQ(choice.fitted, 2);
 }
@@ -154,8 +150,7 @@ TEST(Fit, StopsWhenCancelled) {
 TEST(Fit, CellsInNarrowCornersOfTheCadAreHeld) {
   HexMesh mesh{{}, {{0, 1, 2, 3, 4, 5, 6, 7}}};
   for (double z : {0, 1}) {
-    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)})
-      mesh.points.emplace_back(x, y, z);
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)}) mesh.points.emplace_back(x, y, z);
   }
   Association association;
   for (const auto& [c, d] : kHexEdges) association.segments.push_back({c, d});

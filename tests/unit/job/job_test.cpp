@@ -17,8 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 TEST(JobOptions, EveryKindOfValue) {
-  const MeshOptions options =
-      options_from_json(R"({"size": 2.5, "order": 1, "sew": false, "effort": "quick", "labels": {"Face3": "+X", "Face7": "-Z"},
+  const MeshOptions options = options_from_json(R"({"size": 2.5, "order": 1, "sew": false, "effort": "quick", "labels": {"Face3": "+X", "Face7": "-Z"},
       "frame": [[0, 1.0, 0], [-1e0, 0, 0]], "keep_faces": ["Face3", "Face1"], "divisions": {"Edge4": 6, "Face1-Face2": "3.."}, "sizes": {"Face3": 0.5},
       "hexes": null})");
   EXPECT_EQ(options.size, 2.5);
@@ -46,8 +45,7 @@ TEST(JobOptions, EveryDigitOfANumberArrives) {
 }
 
 TEST(JobOptions, WhatCannotBeReadIsRefused) {
-  for (const char* text :
-       {"", "5", "[]", "{", R"({"size": 0})", R"({"colour": 1})", R"({"labels": {"Face1": "up"}})", R"({"frame": [[1, 0], [0, 1]]})"})
+  for (const char* text : {"", "5", "[]", "{", R"({"size": 0})", R"({"colour": 1})", R"({"labels": {"Face1": "up"}})", R"({"frame": [[1, 0], [0, 1]]})"})
     EXPECT_NE(files::refusal([&] { options_from_json(text); }), "accepted") << text;
   EXPECT_THAT(files::refusal([] { job_kind("both"); }), HasSubstr("'both'"));
 }
@@ -73,8 +71,7 @@ TEST(Npz, DataBeginAtAMultipleOf64) {
   const std::string content = file.read();
   const auto start = content.find("\x93NUMPY");
   ASSERT_NE(start, std::string::npos);
-  const auto length =
-      static_cast<std::size_t>(static_cast<unsigned char>(content[start + 8])) + 256u * static_cast<unsigned char>(content[start + 9]);
+  const auto length = static_cast<std::size_t>(static_cast<unsigned char>(content[start + 8])) + 256u * static_cast<unsigned char>(content[start + 9]);
   EXPECT_EQ((10 + length) % 64, 0u);
   EXPECT_EQ(content[start + 10 + length - 1], '\n');
   EXPECT_THAT(content.substr(start + 10, length), HasSubstr("'shape': (2,3,)"));

@@ -119,7 +119,7 @@ TEST(CutAlong, BordersOfTwoFacesThatEndTogetherStillDo) {
   const std::vector<int> regions = cut_along(cube.mesh, cube.region, {cube.border(10, 3.1), cube.border(20, 3.45)}, Monitor());
   EXPECT_EQ(cube.between(regions, 10), std::set<double>{3.1});
   const std::set<double> front = cube.between(regions, 20);
-  EXPECT_NEAR(*front.begin(), 3.1, 1e-6);   // bent towards the other's end
+  EXPECT_NEAR(*front.begin(), 3.1, 1e-6);    // bent towards the other's end
   EXPECT_NEAR(*front.rbegin(), 3.45, 1e-6);  // where it belongs farther down
   volume(cube.mesh);
 }

@@ -14,9 +14,9 @@ namespace {
 
 // The boundary of a union of unit voxels as triangles; its charts are the regions and CAD faces.
 struct Voxels {
-  TetMesh mesh;              // boundary only
-  std::vector<int> region;   // per triangle
-  std::vector<int> label;    // per region
+  TetMesh mesh;             // boundary only
+  std::vector<int> region;  // per triangle
+  std::vector<int> label;   // per region
 };
 
 Voxels voxels(const std::vector<std::array<int, 3>>& cells, int divisions = 2) {

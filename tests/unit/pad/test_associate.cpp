@@ -78,8 +78,7 @@ struct Drawn {
       for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) {
         const auto& [a, b, c] = tets.triangles[t];
         const Vec3 normal = (tets.points[b] - tets.points[a]).cross(tets.points[c] - tets.points[a]).normalized();
-        const double away =
-            std::abs(normal.dot(centre - tets.points[a])) + 1e-3 * ((tets.points[a] + tets.points[b] + tets.points[c]) / 3 - centre).norm();
+        const double away = std::abs(normal.dot(centre - tets.points[a])) + 1e-3 * ((tets.points[a] + tets.points[b] + tets.points[c]) / 3 - centre).norm();
         if (away < least) {
           least = away;
           nearest = t;
@@ -87,8 +86,7 @@ struct Drawn {
       }
       quad_triangle.push_back(nearest);
       for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
-        if (std::find(charts[c].triangles.begin(), charts[c].triangles.end(), nearest) != charts[c].triangles.end())
-          quad_chart.push_back(c);
+        if (std::find(charts[c].triangles.begin(), charts[c].triangles.end(), nearest) != charts[c].triangles.end()) quad_chart.push_back(c);
       }
     }
   }

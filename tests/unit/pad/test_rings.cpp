@@ -15,8 +15,7 @@ using namespace testing;
 
 double worst_sector(const CadModel& model, const HexMesh& mesh, const Association& a) {
   double worst = 0;
-  for (const Sector& s : find_sectors(model, mesh, a, std::vector<char>(mesh.points.size(), 1)))
-    worst = std::max(worst, angle_cost(s.quads, s.angle));
+  for (const Sector& s : find_sectors(model, mesh, a, std::vector<char>(mesh.points.size(), 1))) worst = std::max(worst, angle_cost(s.quads, s.angle));
   return worst;
 }
 
@@ -82,7 +81,8 @@ TEST(PadRings, AnInnerFaceBetweenTwoPiecesOfOneCadEdgeIsFlatInBothItsCells) {
     grid.association.point_cad[node] = {1, 1};
     // Where the CAD edge goes on straight.
     grid.mesh.points[node] = (model.vertex(model.edge(1).vertices[0]) + model.vertex(model.edge(1).vertices[1])) / 2;
-    for (const auto& [k, vertex] : {std::pair(from, 0), std::pair(to, 1)}) grid.mesh.points[nodes[kCornerNeighbours[corner][k]]] = model.vertex(model.edge(1).vertices[vertex]);
+    for (const auto& [k, vertex] : {std::pair(from, 0), std::pair(to, 1)})
+      grid.mesh.points[nodes[kCornerNeighbours[corner][k]]] = model.vertex(model.edge(1).vertices[vertex]);
     grid.association.segments = {{nodes[kCornerNeighbours[corner][from]], node}, {node, nodes[kCornerNeighbours[corner][to]]}};
     grid.association.segment_edge = {1, 1};
   };

@@ -18,8 +18,7 @@ struct Bare {
   std::vector<Quad> quads;
   std::vector<int> chart, triangle;
 
-  explicit Bare(const Grid& grid)
-      : mesh(grid.mesh), quads(grid.association.quads), chart(grid.association.quad_patch), triangle(quads.size()) {
+  explicit Bare(const Grid& grid) : mesh(grid.mesh), quads(grid.association.quads), chart(grid.association.quad_patch), triangle(quads.size()) {
     for (std::size_t q = 0; q < quads.size(); ++q) triangle[q] = static_cast<int>(q);
   }
   int room(int node, int quad) { return make_room(mesh, {quads, chart, triangle}, {node, quad}); }
@@ -49,8 +48,7 @@ std::pair<int, int> corner(const Grid& grid) {
   int node = 0;
   while (grid.association.point_cad[node].dim != 0) ++node;
   int quad = 0;
-  while (std::find(grid.association.quads[quad].begin(), grid.association.quads[quad].end(), node) == grid.association.quads[quad].end())
-    ++quad;
+  while (std::find(grid.association.quads[quad].begin(), grid.association.quads[quad].end(), node) == grid.association.quads[quad].end()) ++quad;
   return {node, quad};
 }
 

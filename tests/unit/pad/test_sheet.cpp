@@ -10,9 +10,7 @@ namespace {
 
 using namespace testing;
 
-SheetCut empty_cut(const Grid& grid) {
-  return {std::vector<char>(grid.mesh.hexes.size(), 0), std::vector<char>(grid.association.quads.size(), 0)};
-}
+SheetCut empty_cut(const Grid& grid) { return {std::vector<char>(grid.mesh.hexes.size(), 0), std::vector<char>(grid.association.quads.size(), 0)}; }
 
 Vec3 centre(const HexMesh& mesh, const Hex& hex) {
   Vec3 sum = Vec3::Zero();

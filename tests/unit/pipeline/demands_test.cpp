@@ -47,9 +47,7 @@ Division between(const Sides& sides, int at_least, int at_most) {
   return {0, {std::min(sides.low, sides.high), std::max(sides.low, sides.high)}, at_least, at_most};
 }
 
-std::vector<std::string> unmet(const MeshResult& result, const Division& division) {
-  return unmet_divisions(result.mesh, result.association, {division});
-}
+std::vector<std::string> unmet(const MeshResult& result, const Division& division) { return unmet_divisions(result.mesh, result.association, {division}); }
 
 std::string complaint(const CadModel& model, const MeshOptions& options) {
   try {

@@ -15,8 +15,7 @@ namespace {
 class HexMapFiles : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(::testing::TempDir()) /
-              ("hex_map_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = std::filesystem::path(::testing::TempDir()) / ("hex_map_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     std::filesystem::create_directories(folder_);
     std::set<testing::Place3> places;
     testing::add_box(places, {0, 0, 0}, {2, 2, 1});
@@ -30,8 +29,7 @@ class HexMapFiles : public ::testing::Test {
     }
     std::ofstream labels(path("labels"));
     for (const Tet& t : example_.tets.tets) {
-      for (const Triangle& f :
-           {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[2], t[3]}, Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[1], t[2]}}) {
+      for (const Triangle& f : {Triangle{t[1], t[2], t[3]}, Triangle{t[0], t[2], t[3]}, Triangle{t[0], t[1], t[3]}, Triangle{t[0], t[1], t[2]}}) {
         const auto at = label.find(sorted(f));
         labels << (at == label.end() ? -1 : at->second) << '\n';
       }

@@ -81,7 +81,8 @@ struct Search {
   std::function<bool()> hurry{};
 
   SearchResult run() {
-    return search(Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor, hurry);
+    return search(
+        Schedule(plans, last, budget), budget, [this](const Plan& p, const Made* d, int f) { return stages(p, d, f); }, monitor, hurry);
   }
   /// The failure that it ends in.
   StageFailed failure() {

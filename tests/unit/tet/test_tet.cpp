@@ -84,8 +84,8 @@ void expect_classified(const TetMesh& mesh, const CadModel& model) {
 
 TEST(Tet, ClassifiesPrimitives) {
   for (const std::string& brep : {shapes::box(1, 2, 3), shapes::cylinder(1, 2), shapes::cone(2, 0, 3), shapes::sphere(1.5), shapes::torus(3, 1),
-                                  shapes::plate_with_hole(10, 8, 2, 1.5), shapes::l_bracket(10, 2, 5), shapes::filleted_box(10, 2),
-                                  shapes::half_cylinder(2, 3), shapes::loft(4, 5), shapes::hollow_box(10), shapes::chamfered_box(10, 0.4)}) {
+                                  shapes::plate_with_hole(10, 8, 2, 1.5), shapes::l_bracket(10, 2, 5), shapes::filleted_box(10, 2), shapes::half_cylinder(2, 3),
+                                  shapes::loft(4, 5), shapes::hollow_box(10), shapes::chamfered_box(10, 0.4)}) {
     const CadModel model = CadModel::from_brep(brep);
     const TetMesh mesh = mesh_of(model);
     expect_classified(mesh, model);
@@ -102,7 +102,8 @@ TEST(Tet, ThinPartsHaveInnerPoints) {
 
 TEST(Tet, ScalesWithThePart) {
   const std::string brep = shapes::plate_with_hole(10, 8, 2, 1.5);
-  const CadModel small = CadModel::from_brep(brep), large = CadModel::from_brep(shapes::scaled(brep, 1000)), tiny = CadModel::from_brep(shapes::scaled(brep, 1e-3));
+  const CadModel small = CadModel::from_brep(brep), large = CadModel::from_brep(shapes::scaled(brep, 1000)),
+                 tiny = CadModel::from_brep(shapes::scaled(brep, 1e-3));
   const std::size_t count = mesh_of(small).tets.size();
   EXPECT_NEAR(static_cast<double>(mesh_of(large).tets.size()), static_cast<double>(count), 0.05 * static_cast<double>(count));
   EXPECT_NEAR(static_cast<double>(mesh_of(tiny).tets.size()), static_cast<double>(count), 0.05 * static_cast<double>(count));
@@ -223,9 +224,13 @@ TEST(Sizes, AMainFaceMayBeFiner) {
 /// A script in the worker's place.
 class FakeWorker {
  public:
-  explicit FakeWorker(const std::string& body) : real_(find_worker()), path_(std::filesystem::path(::testing::TempDir()) / ("fake-polycube-tet-" + std::to_string(getpid()))), count_(path_.string() + ".count") {
+  explicit FakeWorker(const std::string& body)
+      : real_(find_worker()),
+        path_(std::filesystem::path(::testing::TempDir()) / ("fake-polycube-tet-" + std::to_string(getpid()))),
+        count_(path_.string() + ".count") {
     std::filesystem::remove(count_);
-    std::ofstream(path_) << "#!/bin/sh\necho x >> '" << count_.string() << "'\nattempt=$(wc -l < '" << count_.string() << "')\nreal='" << real_ << "'\n" << body << "\n";
+    std::ofstream(path_) << "#!/bin/sh\necho x >> '" << count_.string() << "'\nattempt=$(wc -l < '" << count_.string() << "')\nreal='" << real_ << "'\n"
+                         << body << "\n";
     chmod(path_.c_str(), 0700);
     setenv("POLYCUBE_TET_WORKER", path_.c_str(), 1);
   }
@@ -251,7 +256,8 @@ TetOptions coarse(const CadModel& model) {
 }
 
 TEST(Ladder, ClimbsPastCrashesAndSilence) {
-  const FakeWorker worker("case $attempt in 1) kill -SEGV $$;; 2) echo broken >&2; exit 1;; 3) exit 0;; 4) echo junk > \"$3\"; exit 0;; *) exec \"$real\" \"$@\";; esac");
+  const FakeWorker worker(
+      "case $attempt in 1) kill -SEGV $$;; 2) echo broken >&2; exit 1;; 3) exit 0;; 4) echo junk > \"$3\"; exit 0;; *) exec \"$real\" \"$@\";; esac");
   const CadModel model = CadModel::from_brep(shapes::box(1, 2, 3));
   Monitor monitor;
   std::vector<std::string> log;

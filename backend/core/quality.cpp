@@ -11,16 +11,18 @@ namespace polycube {
 
 namespace {
 
-// Of the trilinear map from [-1, 1]^3, at q.
-Mat3 jacobian(const std::vector<Vec3>& points, const Hex& hex, const Vec3& q) {
+// Of a corner's trilinear shape function on [-1, 1]^3.
+Vec3 shape_gradient(int corner, const Vec3& at) {
+  const auto& c = kCornerCoordinates[corner];
+  const Vec3 r(2 * c[0] - 1, 2 * c[1] - 1, 2 * c[2] - 1);
+  const Vec3 s = Vec3::Ones() + r.cwiseProduct(at);
+  return {r[0] * s[1] * s[2] / 8, s[0] * r[1] * s[2] / 8, s[0] * s[1] * r[2] / 8};
+}
+
+// Of the trilinear map from [-1, 1]^3.
+Mat3 jacobian(const std::vector<Vec3>& points, const Hex& hex, const Vec3& at) {
   Mat3 jacobian = Mat3::Zero();
-  for (int i = 0; i < 8; ++i) {
-    const auto& ci = kCornerCoordinates[i];
-    const Vec3 r(2 * ci[0] - 1, 2 * ci[1] - 1, 2 * ci[2] - 1);
-    const Vec3 s = Vec3::Ones() + r.cwiseProduct(q);
-    const Vec3 gradient(r[0] * s[1] * s[2] / 8, s[0] * r[1] * s[2] / 8, s[0] * s[1] * r[2] / 8);
-    jacobian += points[hex[i]] * gradient.transpose();
-  }
+  for (int i = 0; i < 8; ++i) jacobian += points[hex[i]] * shape_gradient(i, at).transpose();
   return jacobian;
 }
 
@@ -125,15 +127,31 @@ ShapeSummary summarise_shape(const HexMesh& mesh) {
   return {ratio.get(), skewness.get(), warp.get()};
 }
 
-double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex) {
-  const double g = std::sqrt(0.6);
-  double least = std::numeric_limits<double>::infinity();
-  for (double u : {-g, 0.0, g}) {
-    for (double v : {-g, 0.0, g}) {
-      for (double w : {-g, 0.0, g}) least = std::min(least, jacobian(points, hex, {u, v, w}).determinant());
+const std::array<InnerDerivatives, 3>& inner_derivatives() {
+  static const std::array<InnerDerivatives, 3> table = [] {
+    std::array<InnerDerivatives, 3> result;
+    const double g = std::sqrt(0.6);
+    for (int p = 0; p < kInnerPoints; ++p) {
+      const Vec3 at(g * (p / 9 - 1), g * (p / 3 % 3 - 1), g * (p % 3 - 1));
+      for (int c = 0; c < 8; ++c) {
+        const Vec3 gradient = shape_gradient(c, at);
+        for (int a = 0; a < 3; ++a) result[a](p, c) = gradient[a];
+      }
     }
-  }
-  return least;
+    return result;
+  }();
+  return table;
+}
+
+double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex) {
+  Eigen::Matrix<double, 8, 3> corners;
+  for (int c = 0; c < 8; ++c) corners.row(c) = points[hex[c]].transpose();
+  std::array<Eigen::Matrix<double, kInnerPoints, 3>, 3> j;
+  for (int a = 0; a < 3; ++a) j[a].noalias() = inner_derivatives()[a] * corners;
+  const auto product = [&](int k, int l, int m) {
+    return j[0].col(k).array() * (j[1].col(l).array() * j[2].col(m).array() - j[1].col(m).array() * j[2].col(l).array());
+  };
+  return (product(0, 1, 2) + product(1, 2, 0) + product(2, 0, 1)).minCoeff();
 }
 
 double hex_volume(const std::vector<Vec3>& points, const Hex& hex) {

@@ -11,6 +11,12 @@ double corner_scaled_jacobian(const std::vector<Vec3>& points, const Hex& hex, i
 /// Smallest of the eight corner scaled Jacobians: 1 for a cube, <= 0 for an inverted cell.
 double scaled_jacobian(const std::vector<Vec3>& points, const Hex& hex);
 
+/// The points at which a 20-node hexahedron is integrated, three an axis of [-1, 1]^3, the last axis fastest.
+inline constexpr int kInnerPoints = 27;
+using InnerDerivatives = Eigen::Matrix<double, kInnerPoints, 8>;
+/// Per axis of [-1, 1]^3: the derivatives of the trilinear map at these points, by the places of the corners.
+const std::array<InnerDerivatives, 3>& inner_derivatives();
+
 /// Smallest determinant of the trilinear map at the 3 x 3 x 3 Gauss points: it can be negative where all corners are positive.
 double least_inner_determinant(const std::vector<Vec3>& points, const Hex& hex);
 

@@ -18,10 +18,10 @@ constexpr int kChunk = 512;
 constexpr double kShort = 0.15;                      // an edge this share of its wanted length is as bad as a cell is good
 constexpr double kWideTurn = std::numbers::pi / 12;  // a mesh edge along which its curve turns by this is as bad as a cell is good
 constexpr double kTurnWeight = 4;                    // cells share a mesh edge
-constexpr int kFloorPower = 16;
-constexpr int kMemory = 8;            // pairs L-BFGS remembers
-constexpr double kFarTurn = 0.7;      // radians: an entity that turns by this under a node is no longer known to second order
-constexpr double kLongestStep = 0.4;  // of the wanted edge length, a node and iteration
+constexpr int kFloorPower = 16;                      // even
+constexpr int kMemory = 8;                           // pairs L-BFGS remembers
+constexpr double kFarTurn = 0.7;                     // radians: an entity that turns by this under a node is no longer known to second order
+constexpr double kLongestStep = 0.4;                 // of the wanted edge length, a node and iteration
 
 // Axis of each of the three edges of a corner, in the order of kCornerNeighbours.
 constexpr std::array<std::array<int, 3>, 8> corner_axes() {
@@ -44,63 +44,72 @@ double determinant(const std::vector<Vec3>& points, const Hex& hex, int c, const
   return (points[hex[n[0]]] - x).dot((points[hex[n[1]]] - x).cross(points[hex[n[2]]] - x)) / lengths.prod();
 }
 
-// The derivatives of the trilinear map of [0, 1]^3 at the 27 integration points, by the corners' places: one row an axis.
-using Derivatives = Eigen::Matrix<double, 3, 8>;
-std::array<Derivatives, 27> inner_derivatives() {
-  std::array<Derivatives, 27> result;
-  const double g = std::sqrt(0.6);
-  for (int p = 0; p < 27; ++p) {
-    const Vec3 at(g * (p / 9 - 1), g * (p / 3 % 3 - 1), g * (p % 3 - 1));
-    for (int c = 0; c < 8; ++c) {
-      Vec3 sign, share;
-      for (int a = 0; a < 3; ++a) {
-        sign[a] = 2 * kCornerCoordinates[c][a] - 1;
-        share[a] = (1 + sign[a] * at[a]) / 2;
-      }
-      for (int a = 0; a < 3; ++a) result[p](a, c) = sign[a] * share[(a + 1) % 3] * share[(a + 2) % 3];
-    }
+// Vectors of N corners at once, a row each: the processor takes several rows in one step.
+template <int N>
+using Vectors = Eigen::Array<double, N, 3>;
+template <int N>
+using Values = Eigen::Array<double, N, 1>;
+
+template <int N>
+Vectors<N> cross(const Vectors<N>& a, const Vectors<N>& b) {
+  Vectors<N> c;
+  for (int k = 0; k < 3; ++k) {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    c.col(k) = a.col(l) * b.col(m) - a.col(m) * b.col(l);
   }
+  return c;
+}
+
+template <int N>
+Values<N> dot(const Vectors<N>& a, const Vectors<N>& b) {
+  return a.col(0) * b.col(0) + a.col(1) * b.col(1) + a.col(2) * b.col(2);
+}
+
+template <int N>
+Values<N> raised(const Values<N>& x, int power) {
+  Values<N> result = Values<N>::Ones();
+  for (int k = 0; k < power; ++k) result *= x;
   return result;
 }
 
-// Energy of one corner and its derivatives by the three scaled edge vectors.
-double corner_energy(const Energy& energy, const std::array<Vec3, 3>& j, std::array<Vec3, 3>& gradient) {
-  const std::array<Vec3, 3> cofactor{j[1].cross(j[2]), j[2].cross(j[0]), j[0].cross(j[1])};
-  const double det = j[0].dot(cofactor[0]);
-  const double root = std::sqrt(energy.eps * energy.eps + det * det);
-  if (energy.eps == 0 && det <= 0) return kInfinity;
+// Sum of the energies of N corners, and their derivatives by the three scaled edge vectors.
+template <int N>
+double corner_energies(const Energy& energy, const std::array<Vectors<N>, 3>& j, std::array<Vectors<N>, 3>& gradient) {
+  const std::array<Vectors<N>, 3> cofactor{cross<N>(j[1], j[2]), cross<N>(j[2], j[0]), cross<N>(j[0], j[1])};
+  const std::array<Values<N>, 3> squared{dot<N>(j[0], j[0]), dot<N>(j[1], j[1]), dot<N>(j[2], j[2])};
+  const Values<N> det = dot<N>(j[0], cofactor[0]);
+  if (energy.eps == 0 && (det <= 0).any()) return kInfinity;
+  const Values<N> root = (energy.eps * energy.eps + det.square()).sqrt();
   // The second form of chi keeps its digits where det is far below 0.
-  const double chi = det >= 0 ? (det + root) / 2 : energy.eps * energy.eps / (2 * (root - det));
-  if (chi < 1e-200) return kInfinity;
-  const double slope = chi / root;  // d chi / d det
-  const double mean = std::sqrt((j[0].squaredNorm() + j[1].squaredNorm() + j[2].squaredNorm()) / 3);
-  const double spread = mean * mean * mean / chi, volume = (det * det + 1) / (2 * chi);
-  double value = energy.shape * (spread + volume);
-  double by_det = energy.shape * (det / chi - (spread + volume) / chi * slope);
-  std::array<double, 3> by_edge;
-  by_edge.fill(energy.shape * mean / chi);
+  const Values<N> chi = (det >= 0).select((det + root) / 2, energy.eps * energy.eps / (2 * (root - det)));
+  if ((chi < 1e-200).any()) return kInfinity;
+  const Values<N> inverse = chi.inverse(), slope = chi / root;  // d chi / d det
+  const Values<N> mean = ((squared[0] + squared[1] + squared[2]) / 3).sqrt();
+  const Values<N> both = mean.cube() * inverse + (det.square() + 1) * inverse / 2;
+  double value = energy.shape * both.sum();
+  Values<N> by_det = energy.shape * inverse * (det - both * slope);
+  const Values<N> by_shape = energy.shape * mean * inverse;
+  std::array<Values<N>, 3> by_edge{by_shape, by_shape, by_shape};
   if (energy.right > 0) {
-    const std::array<double, 3> squared{j[0].squaredNorm(), j[1].squaredNorm(), j[2].squaredNorm()};
-    const double inverse = std::sqrt(squared[0] * squared[1] * squared[2]) / chi;
-    double raised = energy.right;
-    for (int k = 0; k < energy.power; ++k) raised *= inverse;
-    value += raised;
-    double steep = energy.power * raised;
+    const int half = energy.power / 2;
+    const Values<N> skewness = squared[0] * squared[1] * squared[2] * inverse.square();  // 1 / scaled Jacobian^2
+    const Values<N> right = energy.right * raised<N>(skewness, half);
+    value += right.sum();
+    Values<N> steep = energy.power * right;
     if (energy.floor > 0) {
-      const double near = std::pow(energy.floor * inverse, kFloorPower) * energy.right / (energy.floor * energy.floor);
-      value += near;
+      const Values<N> near = energy.right / (energy.floor * energy.floor) * raised<N>(energy.floor * energy.floor * skewness, kFloorPower / 2);
+      value += near.sum();
       steep += kFloorPower * near;
     }
-    by_det -= steep / chi * slope;
+    by_det -= steep * inverse * slope;
     for (int k = 0; k < 3; ++k) {
-      const double length = std::max(squared[k], 1e-300);
-      double shortness = energy.right;
-      for (int i = 0; i < energy.power; ++i) shortness *= kShort / std::sqrt(length);
-      value += shortness;
-      by_edge[k] += (steep - energy.power * shortness) / length;
+      const Values<N> per_length = squared[k].max(1e-300).inverse();
+      const Values<N> shortness = energy.right * raised<N>(kShort * kShort * per_length, half);
+      value += shortness.sum();
+      by_edge[k] += (steep - energy.power * shortness) * per_length;
     }
   }
-  for (int k = 0; k < 3; ++k) gradient[k] = by_edge[k] * j[k] + by_det * cofactor[k];
+  for (int k = 0; k < 3; ++k) gradient[k] = j[k].colwise() * by_edge[k] + cofactor[k].colwise() * by_det;
   return value;
 }
 
@@ -199,7 +208,7 @@ double Descent::min_determinant(const std::vector<Vec3>& targets, const CellRegi
 
 double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets, const CellRegion& region, const std::vector<Turn>& turns,
                          const std::vector<SkinCorner>& skin, const std::vector<Vec3>& points, const std::vector<Vec3>& steps, std::vector<Vec3>& gradient) {
-  static const std::array<Derivatives, 27> inner = inner_derivatives();
+  const std::array<InnerDerivatives, 3>& inner = inner_derivatives();
   const int count = static_cast<int>(region.hexes.size());
   std::vector<double> partial((count + kChunk - 1) / kChunk);
   for_chunks(count, kChunk, threads_, [&](int chunk, int first, int last) {
@@ -208,31 +217,33 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       const int h = region.hexes[i];
       const Hex& hex = mesh_.hexes[h];
       const Vec3 inverse = targets[h].cwiseInverse();
-      Eigen::Map<Eigen::Matrix<double, 3, 8>> g(corner_gradient_.data() + 24 * static_cast<std::size_t>(i));
-      g.setZero();
-      for (int c = 0; c < 8; ++c) {
-        std::array<Vec3, 3> j, by;
-        for (int k = 0; k < 3; ++k) j[k] = (points[hex[kCornerNeighbours[c][k]]] - points[hex[c]]) * inverse[kCornerAxes[c][k]];
-        const double value = corner_energy(energy, j, by);
-        sum += value;
-        if (value == kInfinity) break;
-        for (int k = 0; k < 3; ++k) {
-          by[k] *= inverse[kCornerAxes[c][k]];
-          g.col(kCornerNeighbours[c][k]) += by[k];
-          g.col(c) -= by[k];
+      Vectors<8> corners;
+      for (int c = 0; c < 8; ++c) corners.row(c) = points[hex[c]].transpose();
+      std::array<Values<8>, 3> scale;
+      std::array<Vectors<8>, 3> j, by;
+      for (int k = 0; k < 3; ++k) {
+        for (int c = 0; c < 8; ++c) {
+          scale[k][c] = inverse[kCornerAxes[c][k]];
+          j[k].row(c) = corners.row(kCornerNeighbours[c][k]);
         }
+        j[k] = (j[k] - corners).colwise() * scale[k];
+      }
+      const double value = corner_energies<8>(energy, j, by);
+      sum += value;
+      if (value == kInfinity) break;
+      Eigen::Map<Eigen::Matrix<double, 3, 8>> g(corner_gradient_.data() + 24 * static_cast<std::size_t>(i));
+      for (int k = 0; k < 3; ++k) by[k] = by[k].colwise() * scale[k];
+      g = -(by[0] + by[1] + by[2]).matrix().transpose();
+      for (int c = 0; c < 8; ++c) {
+        for (int k = 0; k < 3; ++k) g.col(kCornerNeighbours[c][k]) += by[k].row(c).matrix().transpose();
       }
       if (region.watched.empty() || !region.watched[i]) continue;
-      Eigen::Matrix<double, 3, 8> corners;
-      for (int c = 0; c < 8; ++c) corners.col(c) = points[hex[c]];
-      for (const Derivatives& d : inner) {
-        std::array<Vec3, 3> j, by;
-        for (int a = 0; a < 3; ++a) j[a] = corners * d.row(a).transpose() * inverse[a];
-        const double value = corner_energy(energy, j, by);
-        sum += value;
-        if (value == kInfinity) break;
-        for (int a = 0; a < 3; ++a) g += inverse[a] * by[a] * d.row(a);
-      }
+      std::array<Vectors<kInnerPoints>, 3> inner_j, inner_by;
+      for (int a = 0; a < 3; ++a) inner_j[a] = (inner[a] * corners.matrix() * (2 * inverse[a])).array();  // of [0, 1]^3
+      const double inside = corner_energies<kInnerPoints>(energy, inner_j, inner_by);
+      sum += inside;
+      if (inside == kInfinity) break;
+      for (int a = 0; a < 3; ++a) g += 2 * inverse[a] * inner_by[a].matrix().transpose() * inner[a];
     }
     partial[chunk] = sum;
   });
@@ -252,10 +263,11 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
   });
   for (const SkinCorner& corner : skin) {
     const auto [first, second] = sides(corner, points);
-    std::array<Vec3, 3> by;
-    total += corner_energy({energy.shape, 0, 1, 0, energy.eps}, {first, second, corner.normal}, by);
+    std::array<Vectors<1>, 3> by{Vectors<1>::Zero(), Vectors<1>::Zero(), Vectors<1>::Zero()};
+    total += corner_energies<1>({energy.shape, 0, 2, 0, energy.eps}, {first.transpose(), second.transpose(), corner.normal.transpose()}, by);
     if (!(total < kInfinity)) return kInfinity;
-    const std::array<Vec3, 3> slopes{-by[0] / corner.lengths[0] - by[1] / corner.lengths[1], by[0] / corner.lengths[0], by[1] / corner.lengths[1]};
+    const Vec3 by_first = by[0].matrix().transpose() / corner.lengths[0], by_second = by[1].matrix().transpose() / corner.lengths[1];
+    const std::array<Vec3, 3> slopes{-by_first - by_second, by_first, by_second};
     for (int k = 0; k < 3; ++k) {
       const int slot = node_slot_[corner.nodes[k]];
       if (slot >= 0) gradient[slot] += entities_.along(corner.nodes[k], slopes[k], steps[slot]);

@@ -30,7 +30,7 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 struct Energy {
   double shape = 1;
   double right = 0;
-  int power = 1;
+  int power = 2;     ///< even
   double floor = 0;  ///< a scaled Jacobian, 0: none
   double eps = 0;    ///< 0: a barrier, infinite where D <= 0
 };

@@ -21,6 +21,7 @@ constexpr int kFew = 4;            // inverted cells worth another start: more o
 constexpr double kDoubt = 0.01;    // of a prospect: the candidate that its maker puts first stays there for less
 constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
 
+constexpr double kFlat = 1e-3;     // scaled Jacobian: nodes of a face that projection took onto its border leave cells that are positive by rounding alone
 constexpr double kPoor = 0.3;      // scaled Jacobian up to which a cell may be inverted inside though its corners are not
 constexpr double kTwisted = 0.85;  // cosine: so may any cell whose edges along one axis are further from their mean than this
 
@@ -48,9 +49,11 @@ bool hollow(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacob
   return scaled_jacobian > 0 && suspect(points, hex, scaled_jacobian) && !(least_inner_determinant(points, hex) > 0);
 }
 
-// How good a mesh is: first no inverted cells, then no hollow ones, then the worst cell up to a goal, then the mean.
+// How good a mesh is: first no inverted and flat cells, then no hollow ones, then the worst cell up to a goal, then the mean.
 struct Score {
-  int inverted = 0, hollow = 0;
+  int inverted = 0;  // or flat, which untangling takes for the same
+  int hollow = 0;
+  bool positive = true;  // no cell is inverted, flat ones aside
   double worst = 0, mean = 0;
   bool better_than(const Score& other, double goal) const {
     if (inverted != other.inverted) return inverted < other.inverted;
@@ -131,10 +134,10 @@ class Fitting {
     restore();
     if (score_.inverted > 0 && score_.inverted <= kFew) {
       Untangling mending;
-      untangle(around(0, 2), 50, mending, kRounds);
+      untangle(around(kFlat, 2), 50, mending, kRounds);
       restore();
     }
-    if (score_.inverted == 0) square_up(whole_, 2, 20);
+    if (score_.positive) square_up(whole_, 2, 20);
     // The worst cell will be worked on, the mean hardly changes any more.
     const Prospect result{score_.inverted, -score_.mean - kWorst * score_.worst};
     best_ = best;
@@ -148,25 +151,25 @@ class Fitting {
     untangle(whole_, 20, start_, options_.max_rounds);
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
-      untangle(around(0, layers), 50);
+      untangle(around(kFlat, layers), 50);
     }
     // Nodes of faces may want to slide out over the border.
     with_skin_ = true;
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
-      untangle(around(0, layers), 50);
+      untangle(around(kFlat, layers), 50);
     }
     // A few cells that resist get another start: their surroundings smoothed flat.
     for (int layers = 2; score_.inverted > 0 && score_.inverted <= kFew && layers <= 6; layers += 2) {
       restore();
-      const CellRegion region = around(0, layers);
+      const CellRegion region = around(kFlat, layers);
       smooth(region);
       untangle(region, 50);
     }
     with_skin_ = false;
     restore();
     monitor_.progress("fit", 0.5);
-    if (score_.inverted == 0) {
+    if (score_.positive) {
       square_up();
       if (score_.hollow > 0) fill_hollow();
       monitor_.progress("fit", 0.8);
@@ -191,10 +194,11 @@ class Fitting {
   }
 
   Score rate() const {
-    Score score{0, 0, 1, 0};
+    Score score{.worst = 1};
     for (const Hex& hex : mesh_.hexes) {
       const double value = scaled_jacobian(mesh_.points, hex);
-      score.inverted += value <= 0;
+      score.inverted += value <= kFlat;
+      score.positive = score.positive && value > 0;
       score.hollow += hollow(mesh_.points, hex, value);
       score.worst = std::min(score.worst, value);
       score.mean += value;
@@ -331,6 +335,10 @@ class Fitting {
   // Goes on from `state` up to so many rounds in all.
   void untangle(const CellRegion& region, int iterations, Untangling& state, int max_rounds) {
     constexpr int kPatience = 6;
+    constexpr double kConverged = 5e-3;  // gain of a round
+    constexpr int kRare = 1000;          // inverted cells as rare are left to what works on their surroundings alone
+    const int cells = static_cast<int>(mesh_.hexes.size());
+    const bool is_whole = region.hexes.size() == mesh_.hexes.size();
     auto& [energy, deepest, round, idle, done] = state;
     for (; !done && round < max_rounds && idle < kPatience; ++round, ++idle) {
       const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
@@ -346,7 +354,7 @@ class Fitting {
       if (improved || reached > deepest + 0.01 * std::abs(deepest)) idle = 0;
       deepest = std::max(deepest, reached);
       const double gain = 1 - result.energy / result.start_energy;
-      done = reached > 0 && gain < 5e-3;
+      done = gain < kConverged && (reached > 0 || (is_whole && score_.inverted > 0 && score_.inverted <= std::max(kFew, cells / kRare)));
       if (done) break;
       const double rate_of_fall = std::max(gain, 0.1);
       const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
@@ -427,7 +435,7 @@ class Fitting {
   FitReport report() const {
     FitReport report;
     const Score now = rate();
-    report.inverted = now.inverted;
+    for (const Hex& hex : mesh_.hexes) report.inverted += scaled_jacobian(mesh_.points, hex) <= 0;
     report.min_scaled_jacobian = now.worst;
     report.mean_scaled_jacobian = now.mean;
     std::vector<double> off(entities_.boundary().size());

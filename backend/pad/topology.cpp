@@ -1,6 +1,7 @@
 #include "pad/topology.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "core/hexahedron.h"
@@ -15,27 +16,37 @@ struct Side {
   friend bool operator<(const Side& x, const Side& y) { return std::tie(x.nodes, x.id) < std::tie(y.nodes, y.id); }
 };
 
+// All sides of hexes and all quads in their order. By the smallest node first, which is counted, not compared: few sides have the same one.
+std::vector<Side> sides_by_nodes(const HexMesh& mesh, const std::vector<Quad>& quads) {
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t h = 0; h < mesh.hexes.size(); ++h) {
+      for (int f = 0; f < 6; ++f) {
+        std::array<int, 4> nodes;
+        for (int k = 0; k < 4; ++k) nodes[k] = mesh.hexes[h][kHexFaces[f][k]];
+        visit(nodes, static_cast<int>(6 * h) + f);
+      }
+    }
+    for (std::size_t q = 0; q < quads.size(); ++q) visit(quads[q], -1 - static_cast<int>(q));
+  };
+  std::vector<int> first(mesh.points.size() + 1, 0);
+  for_each([&](const std::array<int, 4>& nodes, int) { ++first[*std::min_element(nodes.begin(), nodes.end()) + 1]; });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> next(first.begin(), first.end() - 1);
+  std::vector<Side> sides(6 * mesh.hexes.size() + quads.size());
+  for_each([&](std::array<int, 4> nodes, int id) {
+    std::sort(nodes.begin(), nodes.end());
+    sides[next[nodes[0]]++] = {nodes, id};
+  });
+  for (std::size_t v = 0; v + 1 < first.size(); ++v) std::sort(sides.begin() + first[v], sides.begin() + first[v + 1]);
+  return sides;
+}
+
 }  // namespace
 
 HexTopology build_topology(const HexMesh& mesh, const std::vector<Quad>& quads) {
   const int hex_count = static_cast<int>(mesh.hexes.size()), quad_count = static_cast<int>(quads.size());
   HexTopology topology;
-  std::vector<Side> sides;
-  sides.reserve(6 * mesh.hexes.size() + quads.size());
-  for (int h = 0; h < hex_count; ++h) {
-    for (int f = 0; f < 6; ++f) {
-      Side side{{}, 6 * h + f};
-      for (int k = 0; k < 4; ++k) side.nodes[k] = mesh.hexes[h][kHexFaces[f][k]];
-      std::sort(side.nodes.begin(), side.nodes.end());
-      sides.push_back(side);
-    }
-  }
-  for (int q = 0; q < quad_count; ++q) {
-    Side side{quads[q], -1 - q};
-    std::sort(side.nodes.begin(), side.nodes.end());
-    sides.push_back(side);
-  }
-  std::sort(sides.begin(), sides.end());
+  std::vector<Side> sides = sides_by_nodes(mesh, quads);
   topology.mate.assign(6 * mesh.hexes.size(), -1 - quad_count);
   topology.quad_side.assign(quads.size(), -1);
   for (std::size_t i = 0; i < sides.size();) {

@@ -81,6 +81,14 @@ MeshOptions checked(const CadModel& model, const MeshOptions& given) {
   return options;
 }
 
+// The first few of many; the report has their number.
+void warn_of(const std::vector<std::string>& lines, const std::string& what, std::vector<std::string>& warnings) {
+  constexpr std::size_t kTold = 4;  // what one reads at a glance
+  const std::size_t told = lines.size() > kTold + 1 ? kTold : lines.size();
+  warnings.insert(warnings.end(), lines.begin(), lines.begin() + static_cast<std::ptrdiff_t>(told));
+  if (told < lines.size()) warnings.push_back(std::to_string(lines.size() - told) + " more " + what);
+}
+
 }  // namespace
 
 /// The part in its pose, and its structures; they report to `monitor`, which follows that of each call.
@@ -154,7 +162,8 @@ MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
   const Shortfalls short_of = find_shortfalls(model_, result.mesh, result.association, effective_min_layers(options), effective_per_circle(options));
   r.thin_walls = static_cast<int>(short_of.thin_walls.size());
   r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
-  for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
+  warn_of(short_of.thin_walls, "walls with fewer elements through them than asked for", r.warnings);
+  warn_of(short_of.coarse_circles, "CAD edges with fewer elements along them than their turning asks for", r.warnings);
   r.loose_nodes = count_loose_nodes(model_, result.association, result.mesh.points);
   return result;
 }

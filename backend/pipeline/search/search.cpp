@@ -148,7 +148,9 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done, b
   });
   while (at < queue.size() && (without_tets(done, queue[at]) || (queue[at].for_poor && !poor))) ++at;
   if (hurry && !mesh) {
-    at = queue.size();
+    // What costs least of those that keep all edges, then the last ways.
+    while (at < queue.size() && queue[at].bounded) ++at;
+    if (at < queue.size()) return Step{queue[at], std::max(left, budget_.last)};
     left = 0;
   }
   if (at < queue.size() && left > (mesh ? budget_.reserved / 2 : budget_.reserved)) return Step{queue[at], left};

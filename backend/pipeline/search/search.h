@@ -73,8 +73,8 @@ Budget budget_of(const std::string& effort);
 using Evaluate = std::function<Outcome(const Plan&, const Made* from, int fits)>;
 
 /// The plans in order, as far as they are needed: those that keep all CAD edges; then, while there is no mesh, surrender in the draft with fewest faults
-/// first, then around its inverted cells, then the last plans. In a hurry, while there is no mesh, what keeps edges or gives them up one by one is left out.
-/// Pure: what is next depends on what was done, and the hurry, alone.
+/// first, then around its inverted cells, then the last plans. In a hurry, while there is no mesh, of those that keep edges only what has no bounds is tried,
+/// and none is given up one by one. Pure: what is next depends on what was done, and the hurry, alone.
 class Schedule {
  public:
   Schedule(std::vector<Plan> keeping, std::vector<Plan> last, const Budget& budget);

@@ -152,6 +152,16 @@ TEST(Bounds, YieldToDivisions) {
   EXPECT_THAT(result.report.warnings, Contains(HasSubstr("8 elements round the curve, not 12")));
 }
 
+TEST(Bounds, OfManyShortfallsAFewAreTold) {
+  const CadModel box = CadModel::from_brep(shapes::filleted_box(20, 5));
+  MeshOptions options;
+  for (const RoundEdge& arc : round_edges(box, 12)) options.divisions.push_back({arc.edge, {}, 2, 2});
+  const MeshResult result = mesh(box, options, Monitor());
+  EXPECT_EQ(result.report.coarse_circles, 24);
+  EXPECT_EQ(result.report.warnings.size(), 5u);
+  EXPECT_EQ(result.report.warnings.back(), "20 more CAD edges with fewer elements along them than their turning asks for");
+}
+
 // The wall's three layers are far thinner than the cells beside them: these grow from there, and the number asked for comes out all the same.
 TEST(Bounds, CellsGrowAndTheirNumberIsMet) {
   const CadModel bracket = CadModel::from_brep(shapes::l_bracket(60, 4, 30));

@@ -112,6 +112,16 @@ TEST(Search, InAHurryAnyMeshIsLookedFor) {
   EXPECT_EQ(s.stages.asked, (Names{"a", "a but round cells that stay inverted", "y", "z", "b"}));
 }
 
+TEST(Search, InAHurryWhatKeepsAllEdgesAndCostsLeastComesFirst) {
+  Search s;
+  s.plans[2].bounded = false;
+  s.plans[2].for_poor = true;
+  s.stages.outcomes = {{"a", inverted(3, 1)}, {"c", mesh(kFine)}};
+  s.hurry = [&] { return !s.stages.asked.empty(); };
+  EXPECT_EQ(s.run().plan.name, "c");
+  EXPECT_EQ(s.stages.asked, (Names{"a", "c"}));
+}
+
 TEST(Search, AHurryLeavesAMeshTheTimeToGetBetter) {
   Search s;
   s.stages.outcomes = {{"a", mesh({1, 0, 0.3, 0.3})}, {"b", mesh(kFine)}};

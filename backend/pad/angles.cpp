@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kWidest = 150 * kPi / 180;  // a cell this wide is flat
+constexpr double kSunk = 1000;      // of a hex below the boundary that touches it along two edges from one node: that corner is flat, as at an angle of kWidest
 constexpr double kFlatInside = 35;  // of a flat inner corner, over its sine: some 100 where the CAD edge turns by 20 degrees, 1200 where it is straight
 
 double dihedral_angle(const CadModel& model, int id, const Vec3& p) {
@@ -54,6 +55,19 @@ int corner_face(int c, int k) {
     if (kCornerCoordinates[c][axis] != kCornerCoordinates[third][axis]) return 2 * axis + kCornerCoordinates[c][axis];
   }
   return 0;
+}
+
+// Pairs of a wanted node inside a patch and a node beside it on the boundary, sorted.
+std::vector<std::array<int, 2>> neighbours_inside_patches(const Association& association, const std::vector<char>& wanted) {
+  std::vector<std::array<int, 2>> pairs;
+  for (const Quad& quad : association.quads) {
+    for (int k = 0; k < 4; ++k) {
+      if (!wanted[quad[k]] || association.point_cad[quad[k]].dim != 2) continue;
+      for (int d : {1, 3}) pairs.push_back({quad[k], quad[(k + d) % 4]});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 // From 0 to 2 pi, counter-clockwise about the normal.
@@ -173,6 +187,11 @@ std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, con
 double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const HexTopology& topology,
                          const std::vector<char>& wanted) {
   const SegmentFinder cad_edge(association, wanted);
+  const auto inside_patch = neighbours_inside_patches(association, wanted);
+  const auto is_inside_patch = [&](int node, int neighbour) {
+    return std::binary_search(inside_patch.begin(), inside_patch.end(), std::array{node, neighbour});
+  };
+  const auto is_inner = [&](std::size_t h, int c, int k) { return topology.mate[6 * h + corner_face(c, k)] >= 0; };
   const auto direction = [&](int edge, int node, int neighbour, int other) -> Vec3 {
     if (association.point_cad[node].dim == 1) {
       return model.project_to_edge(edge, mesh.points[neighbour]).point - model.project_to_edge(edge, mesh.points[node]).point;
@@ -185,11 +204,17 @@ double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Assoc
     const Hex& hex = mesh.hexes[h];
     for (int c = 0; c < 8; ++c) {
       const int node = hex[c];
-      if (!wanted[node] || association.point_cad[node].dim > 1) continue;
+      if (!wanted[node] || association.point_cad[node].dim > 2) continue;
+      if (association.point_cad[node].dim == 2) {
+        int neighbours = 0;
+        for (const int n : kCornerNeighbours[c]) neighbours += is_inside_patch(node, hex[n]);
+        if (neighbours > 1 && is_inner(h, c, 0) && is_inner(h, c, 1) && is_inner(h, c, 2)) cost += kSunk;
+        continue;
+      }
       for (int k = 0; k < 3; ++k) {
         const int a = hex[kCornerNeighbours[c][k]], b = hex[kCornerNeighbours[c][(k + 1) % 3]];
         const int first = cad_edge(node, a), second = cad_edge(node, b);
-        if (first == 0 || second == 0 || topology.mate[6 * h + corner_face(c, k)] < 0) continue;
+        if (first == 0 || second == 0 || !is_inner(h, c, k)) continue;
         const Vec3 from = direction(first, node, a, second), to = direction(second, node, b, first);
         const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
         // A chord takes some of the turn of a curved edge: such a cell is poor, not lost.

@@ -32,7 +32,7 @@ struct Sector {
 std::vector<Sector> find_sectors(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<char>& wanted);
 
 /// What the corners of hexes at the wanted nodes cost whose two sides are CAD edges with an inner face between them: no move of nodes changes
-/// their angle, and no sector tells of them.
+/// their angle, and no sector tells of them. So do those that touch a smooth patch along two edges alone.
 double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const HexTopology& topology,
                          const std::vector<char>& wanted);
 

@@ -1,4 +1,4 @@
-// Where cuts break through each other: narrow tips, corners between two cells, nodes of faces that want to leave them.
+// Where cuts break through each other: narrow tips, corners between two cells, nodes of faces that want to leave them, cells sunk below a face.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,6 +36,14 @@ TEST(Breakthroughs, AChamferThatTouchesTheFlatsOfABoltIsMeshedCompletely) {
   const std::string bolt = shapes::hexagon_bolt(18, 20);
   ASSERT_EQ(CadModel::from_brep(bolt).face_count(), 16);  // six flats, six pieces of the cone, both sides of the head, the shank and its end
   expect_complete(bolt, 0.05);
+}
+
+// A sheet may leave cells below the boundary that touch it along two edges from one node: that corner is flat wherever the nodes go.
+TEST(Breakthroughs, AFivesidedPyramidIsMeshedCompletely) {
+  const CadModel pyramid = CadModel::from_brep(shapes::pointed(5, 10, 14));
+  const MeshResult result = mesh(pyramid, {}, Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_GE(result.report.quality.min_scaled_jacobian, 0.1);
 }
 
 TEST(Breakthroughs, ACornerTwoCellsFromAnEdgeAsksForNoFinerGrid) {

@@ -181,17 +181,21 @@ std::string pyramid(double side, double height) {
   return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
 }
 
-std::string tetrahedron(double edge) {
+std::string pointed(int sides, double radius, double height) {
   BRepOffsetAPI_ThruSections sections(true, true);
   BRepBuilderAPI_MakePolygon base;
-  const double r = edge / std::sqrt(3);
-  for (int i = 0; i < 3; ++i) base.Add({r * std::cos(2 * std::numbers::pi * i / 3), r * std::sin(2 * std::numbers::pi * i / 3), 0});
+  for (int i = 0; i < sides; ++i) {
+    const double turn = 2 * std::numbers::pi * i / sides;
+    base.Add({radius * std::cos(turn), radius * std::sin(turn), 0});
+  }
   base.Close();
   sections.AddWire(base.Wire());
-  sections.AddVertex(BRepBuilderAPI_MakeVertex({0, 0, edge * std::sqrt(2.0 / 3)}));
+  sections.AddVertex(BRepBuilderAPI_MakeVertex({0, 0, height}));
   sections.Build();
   return text(TopExp_Explorer(sections.Shape(), TopAbs_SOLID).Current());
 }
+
+std::string tetrahedron(double edge) { return pointed(3, edge / std::sqrt(3), edge * std::sqrt(2.0 / 3)); }
 
 std::string bevelled_box(double size, double leg) {
   const TopoDS_Shape cube = block({0, 0, 0}, {size, size, size});

@@ -20,6 +20,7 @@ std::string notched_box(double size);                                      ///< 
 std::string filleted_box(double size, double radius);                      ///< cube with all twelve edges rounded
 std::string chamfered_box(double size, double leg);                        ///< cube with one edge along Z cut at 45 degrees
 std::string pyramid(double side, double height);                           ///< square base in z = 0 about the origin
+std::string pointed(int sides, double radius, double height);              ///< pyramid over a regular polygon about the origin, a corner on +X
 std::string tetrahedron(double edge);                                      ///< regular
 std::string bevelled_box(double size, double leg);                         ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
 std::string hollow_box(double size);                                       ///< cube with a cubic void: two shells

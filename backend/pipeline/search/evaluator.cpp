@@ -107,6 +107,12 @@ class Evaluator::Work {
   Work(Evaluator& own, int fits)
       : own_(own), model_(own.model_), options_(own.options_), monitor_(own.monitor_), clock_(own.clock_), fits_(fits), fits_left_(fits) {}
 
+  // Whether the part asks for nothing more than the size gives: the plan with bounds was on the same grid.
+  bool repeats_grid(const Plan& plan) {
+    const Draft draft = on_grid(plan, false, options_.divisions);
+    return std::find(own_.bounded_grids_.begin(), own_.bounded_grids_.end(), grid_of(draft)) != own_.bounded_grids_.end();
+  }
+
   Outcome anew(const Plan& plan) {
     Draft draft = fitted(plan, options_.divisions);
     if (options_.hexes > 0) recount(plan, draft);
@@ -138,6 +144,8 @@ class Evaluator::Work {
     outcome.fits = fits_ - fits_left_;
     return outcome;
   }
+
+  static BoundedGrid grid_of(const Draft& draft) { return {draft.structure, draft.quantization.value}; }
 
   // What a draft comes to: a mesh, or what others may start from.
   Outcome closed(Draft draft) const {
@@ -195,6 +203,7 @@ class Evaluator::Work {
 
   Draft fitted(const Plan& plan, const Divisions& divisions) {
     Draft draft = on_grid(plan, false, divisions);
+    if (plan.bounded) own_.bounded_grids_.push_back(grid_of(draft));
     Routed routes = routed(draft, draft.complex);
     if (!routes.association.lost_edges.empty()) give_room(draft, routes, divisions);
     Association association = divided(draft, std::move(routes));
@@ -444,7 +453,9 @@ Outcome Evaluator::evaluate(const Plan& plan, const Made* from, int fits) {
   if (plan.may_wait && structures_.doubtful(plan.structure)) return skipped;
   skipped.kind = Outcome::Kind::kDuplicate;
   if (structures_.repeats(plan.structure)) return skipped;
-  return Work(*this, fits).anew(plan);
+  Work work(*this, fits);
+  if (!plan.bounded && work.repeats_grid(plan)) return skipped;
+  return work.anew(plan);
 }
 
 MeshResult Evaluator::result(const Outcome& outcome) const {

@@ -29,6 +29,7 @@ class Evaluator {
  private:
   class Work;
   struct Draft;
+  using BoundedGrid = std::pair<const Structure*, std::vector<int>>;  // and the integers of its charts
   static const Draft& draft_in(const Outcome& outcome);
 
   const Pose& pose_;
@@ -41,6 +42,7 @@ class Evaluator {
   StageClock& clock_;
   Structures& structures_;
   double gate_seconds_ = 0;
+  std::vector<BoundedGrid> bounded_grids_;  // of plans done
 };
 
 }  // namespace polycube

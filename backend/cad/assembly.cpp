@@ -179,5 +179,6 @@ double Assembly::volume() const {
 
 std::vector<int> Assembly::faces() const { return all_numbers(solids, &CadModel::faces); }
 std::vector<int> Assembly::edges() const { return all_numbers(solids, &CadModel::edges); }
+std::vector<int> Assembly::vertices() const { return all_numbers(solids, &CadModel::vertices); }
 
 }  // namespace polycube

@@ -35,6 +35,7 @@ struct Assembly {
   double volume() const;           ///< mm^3
   std::vector<int> faces() const;  ///< numbers of all solids' faces, ascending
   std::vector<int> edges() const;
+  std::vector<int> vertices() const;
 
  private:
   static Assembly of(const FileShape& read, const ReadOptions& options, const Monitor& monitor);

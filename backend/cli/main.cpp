@@ -40,13 +40,14 @@ class OptionArguments {
         argument.parsed = command.add_flag(on ? flag + ",!--no-" + flag.substr(2) : flag, option.meaning);
       } else {
         argument.parsed = command.add_option(type == "labels" ? "--label," + flag : flag, argument.texts, option.meaning)->expected(1);
-        const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "bias" || type == "faces";
+        const bool list = type == "labels" || type == "divisions" || type == "sizes" || type == "bias" || type == "faces" || type == "refine";
         if (list) argument.parsed->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
         argument.parsed->type_name(type == "labels"      ? "Face3=+X"
                                    : type == "divisions" ? "Edge4=6"
                                    : type == "sizes"     ? "Face3=mm"
                                    : type == "bias"      ? "Edge4=ratio"
                                    : type == "faces"     ? "Face3"
+                                   : type == "refine"    ? "Face7=levels"
                                                          : type_name(option));
       }
       argument.parsed->group(group);
@@ -177,7 +178,7 @@ struct LabelCommand : PartCommand {
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
     const CadModel model = read<CadModel>(options, monitor);
-    polycube::check(options, model.diagonal(), model.faces(), model.edges());
+    polycube::check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
     const LabelledPart labelled = label_part(model, options, monitor);
     const Inspection inspection = inspect(labelled);
     for (const std::string& output : outputs) {

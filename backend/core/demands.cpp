@@ -151,6 +151,29 @@ EdgeBiases parse_biases(const std::string& flag, const std::string& text) {
   return result;
 }
 
+LocalRefinements parse_refinements(const std::string& flag, const std::string& text) {
+  LocalRefinements result;
+  for_items(flag, text, "Face7=2, Edge3=1, Vertex2=1 or Solid1=1", [&](std::string_view what, std::string_view value) {
+    LocalRefinement r;
+    r.entity.dim = -1;
+    for (const auto& [dim, kind] : {std::pair(0, "Vertex"), std::pair(1, "Edge"), std::pair(2, "Face"), std::pair(3, "Solid")}) {
+      if (const auto id = entity(what, kind)) r.entity = {dim, *id};
+    }
+    const auto levels = number<int>(value);
+    if (r.entity.dim < 0 || !levels) return false;
+    if (*levels < 1 || *levels > LocalRefinement::kMostLevels)
+      throw InvalidInput(flag + ": the levels of " + std::string(what) + " must be from 1 to " + std::to_string(LocalRefinement::kMostLevels) + ", not " +
+                         std::string(value));
+    r.levels = *levels;
+    for (const LocalRefinement& other : result) {
+      if (other.entity == r.entity) throw InvalidInput(flag + ": " + std::string(what) + " is given twice");
+    }
+    result.push_back(r);
+    return true;
+  });
+  return result;
+}
+
 FaceList parse_faces(const std::string& flag, const std::string& text) {
   FaceList faces;
   std::string dense = text;
@@ -181,5 +204,7 @@ std::string text_of(const LocalSize& s) {
 }
 
 std::string text_of(const EdgeBias& b) { return "Edge" + std::to_string(b.edge) + "=" + number_text(b.ratio); }
+
+std::string text_of(const LocalRefinement& r) { return name(r.entity) + "=" + std::to_string(r.levels); }
 
 }  // namespace polycube

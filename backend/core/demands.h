@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "core/types.h"
+
 namespace polycube {
 
 /// How many elements along a CAD edge, between two CAD faces opposite each other, or at least through every wall of a solid.
@@ -34,11 +36,20 @@ struct EdgeBias {
   friend bool operator==(const EdgeBias&, const EdgeBias&) = default;
 };
 
+/// Cells at a CAD entity divided 1:3 along every edge, several times.
+struct LocalRefinement {
+  static constexpr int kMostLevels = 6;  ///< edges a 729th as long: beyond it is a slip of the pen
+  CadRef entity;
+  int levels = 1;
+  friend bool operator==(const LocalRefinement&, const LocalRefinement&) = default;
+};
+
 /// CAD faces, ascending, each once.
 using FaceList = std::vector<int>;
 using Divisions = std::vector<Division>;
 using LocalSizes = std::vector<LocalSize>;
 using EdgeBiases = std::vector<EdgeBias>;
+using LocalRefinements = std::vector<LocalRefinement>;
 
 /// From text such as "Edge4=6,Face1-Face2=3..,Face3-Face5=..4,Edge7=2..5,Solid2=3..": exactly, at least, at most, between; of a solid's walls at least only.
 /// Throws InvalidInput that starts with `flag`.
@@ -49,6 +60,9 @@ LocalSizes parse_local_sizes(const std::string& flag, const std::string& text);
 /// From text such as "Edge4=2.0,Edge7=0.5".
 EdgeBiases parse_biases(const std::string& flag, const std::string& text);
 
+/// From text such as "Face7=2,Edge3=1,Vertex2=1,Solid1=1".
+LocalRefinements parse_refinements(const std::string& flag, const std::string& text);
+
 /// From text such as "Face3,Face7".
 FaceList parse_faces(const std::string& flag, const std::string& text);
 
@@ -56,5 +70,6 @@ FaceList parse_faces(const std::string& flag, const std::string& text);
 std::string text_of(const Division& division);
 std::string text_of(const LocalSize& size);
 std::string text_of(const EdgeBias& bias);
+std::string text_of(const LocalRefinement& refinement);
 
 }  // namespace polycube

@@ -136,6 +136,7 @@ void set(MeshOptions& options, const OptionSpec& option, const std::string& text
                  [&](LocalSizes MeshOptions::*m) { options.*m = parse_local_sizes(flag(option.name), text); },
                  [&](EdgeBiases MeshOptions::*m) { options.*m = parse_biases(flag(option.name), text); },
                  [&](FaceList MeshOptions::*m) { options.*m = parse_faces(flag(option.name), text); },
+                 [&](LocalRefinements MeshOptions::*m) { options.*m = parse_refinements(flag(option.name), text); },
              },
              option.member);
 }
@@ -237,6 +238,10 @@ const std::vector<OptionSpec>& option_table() {
        .unit = "",
        .meaning = "Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.",
        .member = &MeshOptions::bias},
+      {.name = "refine",
+       .unit = "",
+       .meaning = "Times that the hexahedra at a CAD face, edge or vertex, and no others, are divided into three along every edge, such as Face7=2,Edge3=1.",
+       .member = &MeshOptions::refine},
       {.name = "interfaces",
        .unit = "",
        .meaning = "Where solids touch: one mesh with common nodes (conform), or a mesh of each with nodes of its own, for ties and contact (separate).",
@@ -276,7 +281,7 @@ const std::vector<OptionSpec>& option_table() {
 }
 
 std::string option_type(const OptionSpec& option) {
-  static constexpr std::array<const char*, 10> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces"};
+  static constexpr std::array<const char*, 11> kTypes{"double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces", "refine"};
   return kTypes[option.member.index()];
 }
 
@@ -329,6 +334,7 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option) {
                           for (int face : options.*m) text += (text.empty() ? "Face" : ",Face") + std::to_string(face);
                           return text;
                         },
+                        [&](LocalRefinements MeshOptions::*m) { return joined(options.*m); },
                     },
                     option.member);
 }
@@ -354,7 +360,7 @@ void check(const MeshOptions& options) {
                        std::to_string(options.order) + " is asked for");
 }
 
-void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges, int solids) {
+void check(const MeshOptions& options, double diagonal, const PartNumbers& part) {
   check(options);
   if (options.size > diagonal) {
     char text[160];
@@ -365,25 +371,37 @@ void check(const MeshOptions& options, double diagonal, const std::vector<int>& 
     if (id == 0 || std::binary_search(numbers.begin(), numbers.end(), id)) return;
     const std::string start = std::string(option) + ": " + kind + std::to_string(id);
     if (!numbers.empty() && id < numbers.back()) throw InvalidInput(start + " does not belong to the solid");
-    throw InvalidInput(start + " does not exist, the part has " + std::to_string(numbers.size()) + (kind == "Face" ? " faces" : " edges"));
+    throw InvalidInput(start + " does not exist, the part has " + std::to_string(numbers.size()) +
+                       (kind == "Face"   ? " faces"
+                        : kind == "Edge" ? " edges"
+                                         : " vertices"));
   };
   const auto check_solid = [&](const char* option, int id) {
-    if (id > solids)
-      throw InvalidInput(std::string(option) + ": Solid" + std::to_string(id) + " does not exist, the part has " + std::to_string(solids) +
-                         (solids == 1 ? " solid" : " solids"));
+    if (id > part.solids)
+      throw InvalidInput(std::string(option) + ": Solid" + std::to_string(id) + " does not exist, the part has " + std::to_string(part.solids) +
+                         (part.solids == 1 ? " solid" : " solids"));
   };
-  for (const auto& [face, label] : options.labels) check_entity("--label", "Face", face, faces);
+  for (const auto& [face, label] : options.labels) check_entity("--label", "Face", face, part.faces);
   for (const Division& d : options.divisions) {
-    check_entity("--divisions", "Edge", d.edge, edges);
-    for (int face : d.faces) check_entity("--divisions", "Face", face, faces);
+    check_entity("--divisions", "Edge", d.edge, part.edges);
+    for (int face : d.faces) check_entity("--divisions", "Face", face, part.faces);
     check_solid("--divisions", d.solid);
   }
   for (const LocalSize& s : options.sizes) {
-    check_entity("--sizes", "Face", s.face, faces);
+    check_entity("--sizes", "Face", s.face, part.faces);
     check_solid("--sizes", s.solid);
   }
-  for (const EdgeBias& b : options.bias) check_entity("--bias", "Edge", b.edge, edges);
-  for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, faces);
+  for (const EdgeBias& b : options.bias) check_entity("--bias", "Edge", b.edge, part.edges);
+  for (const LocalRefinement& r : options.refine) {
+    if (r.entity.dim == 3) {
+      check_solid("--refine", r.entity.id);
+    } else {
+      const std::array kinds{std::pair("Vertex", &part.vertices), std::pair("Edge", &part.edges), std::pair("Face", &part.faces)};
+      const auto& [kind, numbers] = kinds[static_cast<std::size_t>(r.entity.dim)];
+      check_entity("--refine", kind, r.entity.id, *numbers);
+    }
+  }
+  for (int face : options.keep_faces) check_entity("--keep-faces", "Face", face, part.faces);
 }
 
 void check_count(double hexes) {

@@ -42,6 +42,7 @@ struct MeshOptions {
   Divisions divisions;
   LocalSizes sizes;
   EdgeBiases bias;
+  LocalRefinements refine;
   std::string interfaces = "conform";
   double fidelity = 3;
   double compactness = 1;
@@ -50,9 +51,9 @@ struct MeshOptions {
 
 /// One option. `name` is snake_case; the command line writes it --time-limit, FreeCAD TimeLimit.
 struct OptionSpec {
-  using Member =
-      std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
-                   FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, EdgeBiases MeshOptions::*, FaceList MeshOptions::*>;
+  using Member = std::variant<double MeshOptions::*, int MeshOptions::*, bool MeshOptions::*, std::string MeshOptions::*, FaceLabels MeshOptions::*,
+                              FrameAxes MeshOptions::*, Divisions MeshOptions::*, LocalSizes MeshOptions::*, EdgeBiases MeshOptions::*, FaceList MeshOptions::*,
+                              LocalRefinements MeshOptions::*>;
   std::string name;
   std::string unit;     ///< "mm", "s", "degrees" or empty
   std::string meaning;  ///< one sentence
@@ -65,7 +66,7 @@ struct OptionSpec {
 
 const std::vector<OptionSpec>& option_table();
 
-/// "double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias" or "faces".
+/// "double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces" or "refine".
 std::string option_type(const OptionSpec& option);
 
 /// Options from (name, text) pairs such as ("size", "2.5"), ("coarsest", "true"), ("labels", "Face3=+X,Face7=-Z"),
@@ -81,9 +82,15 @@ std::string option_text(const MeshOptions& options, const OptionSpec& option);
 /// a frame whose axes are no directions or not at right angles.
 void check(const MeshOptions& options);
 
+/// Numbers of what a part has, ascending.
+struct PartNumbers {
+  std::vector<int> faces, edges, vertices;
+  int solids = 1;
+};
+
 /// The same against a part: throws where size exceeds the part's bounding-box diagonal (mm) or a label, a division, a local size or a face to keep
-/// names a face or edge that is not among the numbers of the part's (ascending), or a solid beyond its number of solids.
-void check(const MeshOptions& options, double diagonal, const std::vector<int>& faces, const std::vector<int>& edges, int solids = 1);
+/// names a face, edge or vertex that is not among the numbers of the part's (ascending), or a solid beyond its number of solids.
+void check(const MeshOptions& options, double diagonal, const PartNumbers& numbers);
 
 /// "+X", "-X", ... of a label 0..5.
 const char* label_name(int label);

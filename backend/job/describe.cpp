@@ -21,7 +21,8 @@ Json default_of(const OptionSpec& option) {
         } else if constexpr (std::is_same_v<Member, FrameAxes MeshOptions::*>) {
           return Json::array();
         } else if constexpr (std::is_same_v<Member, Divisions MeshOptions::*> || std::is_same_v<Member, LocalSizes MeshOptions::*> ||
-                             std::is_same_v<Member, EdgeBiases MeshOptions::*> || std::is_same_v<Member, FaceList MeshOptions::*>) {
+                             std::is_same_v<Member, EdgeBiases MeshOptions::*> || std::is_same_v<Member, FaceList MeshOptions::*> ||
+                             std::is_same_v<Member, LocalRefinements MeshOptions::*>) {
           return "";
         } else {
           return defaults.*member;

@@ -182,7 +182,7 @@ void work(const std::string& folder, JobKind kind) {
   limit_time(monitor, options);
   if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape<Assembly>(folder, options, monitor); }, options, monitor));
   const CadModel model = read_shape<CadModel>(folder, options, monitor);
-  check(options, model.diagonal(), model.faces(), model.edges());
+  check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
   save_labels(folder, label_part(model, options, monitor, Until::kLabels), model.face_count());
 }
 

@@ -75,11 +75,11 @@ std::vector<double> shares(const RoundEdge& round, const std::vector<EdgeRun>& r
 }
 
 void bound_circles(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                   const std::vector<std::vector<int>>& edge_chains, int per_circle, const std::map<int, int>& more,
+                   const std::vector<std::vector<int>>& edge_chains, const std::vector<RoundEdge>& rounds, const std::map<int, int>& more,
                    std::vector<DistanceConstraint>& constraints) {
   const EdgeRuns edge_runs(tets, map, blocks);
   std::array<Stretches, 3> up;
-  for (RoundEdge round : round_edges(model, per_circle)) {
+  for (RoundEdge round : rounds) {
     if (const auto at = more.find(round.edge); at != more.end()) round.elements += at->second;
     const std::vector<int>& chain = edge_chains[round.edge];
     const std::vector<EdgeRun> runs = edge_runs.of(chain);
@@ -144,9 +144,10 @@ void bound_lengths(const PolycuboidMap& map, const BlockComplex& blocks, double 
 }  // namespace
 
 std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more) {
+                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more,
+                                            const EdgeLevels& levels) {
   std::vector<DistanceConstraint> constraints;
-  bound_circles(model, tets, map, blocks, edge_chains, effective_per_circle(options), more, constraints);
+  bound_circles(model, tets, map, blocks, edge_chains, before_levels(round_edges(model, effective_per_circle(options)), levels), more, constraints);
   if (options.min_layers == 0 && effective_min_layers(options) > 1) bound_walls(blocks, effective_min_layers(options), constraints);
   const double longest = effective_max_size(options, model.diagonal());
   if (std::isfinite(longest)) bound_lengths(map, blocks, longest, constraints);

@@ -1,19 +1,20 @@
 // Bounds from below that the part itself asks for, as constraints of the quantization: cells enough through walls and round circles, none too long.
 #pragma once
 
-#include <map>
-
 #include "blocks/blocks.h"
 #include "cad/cad.h"
 #include "core/options.h"
+#include "pipeline/circles.h"
 #include "quantize/quantize.h"
 
 namespace polycube {
 
 /// All of them may yield to what is demanded by name. `options` in the pose of the map; `edge_chains`: tet mesh points along every CAD edge, empty for those
-/// that the map does not follow; `more`: per round edge, elements above those that its turning asks for, where the grid gave it fewer.
+/// that the map does not follow; `more`: per round edge, elements above those that its turning asks for, where the grid gave it fewer; `levels`: edges at which
+/// cells are divided later.
 std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
-                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more = {});
+                                            const std::vector<std::vector<int>>& edge_chains, const MeshOptions& options, const std::map<int, int>& more = {},
+                                            const EdgeLevels& levels = {});
 
 /// More bounds, by what the integers give: cells of a block that grow from smaller ones beside it by `growth` at most, and none longer than 10 times its width.
 /// Cells far thinner than `size` (units of the map) count as no thinner than a share of it. Empty where the bounds hold.

@@ -18,6 +18,8 @@ constexpr double kSlack = 0.1;
 // Small circles: their diameter in diagonals, and elements enough for them.
 constexpr double kSmallCircle = 1.0 / 100;
 constexpr int kPerSmallCircle = 8;
+// The fewest elements that go round a bore in a grid: one for each side.
+constexpr int kFewestRound = 4;
 // No edge needs more turns than this: more of them are noise of a spline.
 constexpr double kMostTurns = 4;
 // A circle that two or more edges make closes within this, radians; their centres are as near, in diagonals.
@@ -76,7 +78,7 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     const double turn = edge_turn(model, e, from, to);
     const bool small = turn > 0 && 2 * edge.length / turn < kSmallCircle * model.diagonal();
     const int round = small ? std::min(per_circle, kPerSmallCircle) : per_circle;
-    all.push_back({e, turn, elements_for(turn, round), 0, round, {}});
+    all.push_back({e, turn, elements_for(turn, round), 0, round, 0, {}});
     const Vec3 bend = model.edge_bend(e, (from + to) / 2);
     centres.push_back(model.edge_point(e, (from + to) / 2) + bend / std::max(bend.squaredNorm(), std::numeric_limits<double>::min()));
   }
@@ -107,6 +109,7 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     if (barrel > 0 && std::abs(circle.turn - 2 * std::numbers::pi) < kClosed) {
       r.circle = circle.first;
       const bool bore = is_bore(model, barrel, model.edge_point(r.edge, model.edge_range(r.edge)[0]));
+      if (bore) r.bore = barrel;
       r.name = name({2, barrel}) + ": " + counted(r.round) + " round the " + (bore ? "bore" : "shaft");
     } else {
       r.name = name({1, r.edge}) + ": " + counted(r.elements) + (edge.closed ? " round the curve" : " along the arc");
@@ -114,6 +117,24 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     if (r.circle > 0 || r.elements > 1) result.push_back(std::move(r));
   }
   return result;
+}
+
+EdgeLevels levels_round_bores(const std::vector<RoundEdge>& edges) {
+  EdgeLevels levels;
+  for (const RoundEdge& r : edges) {
+    for (int fewest = 3 * kFewestRound; r.bore > 0 && fewest <= r.round; fewest *= 3) ++levels[r.edge];
+  }
+  return levels;
+}
+
+std::vector<RoundEdge> before_levels(std::vector<RoundEdge> edges, const EdgeLevels& levels) {
+  for (RoundEdge& r : edges) {
+    const auto at = levels.find(r.edge);
+    for (int level = 0; at != levels.end() && level < at->second; ++level) {
+      for (int* count : {&r.elements, &r.round}) *count = (*count + 2) / 3;
+    }
+  }
+  return edges;
 }
 
 std::vector<int> missing_elements(const std::vector<RoundEdge>& edges, const std::vector<int>& elements) {

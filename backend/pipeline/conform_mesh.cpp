@@ -110,6 +110,7 @@ class Conformer {
     if (by_entity || !options_.bias.empty())
       throw InvalidInput(
           "--bias, --sizes and --divisions of faces, edges and axes go with --interfaces separate only; those of solids go with common nodes too");
+    if (!options_.refine.empty()) throw InvalidInput("--refine goes with --interfaces separate only: the solids touch");
     if (options_.feature_angle > 0) throw InvalidInput("--feature-angle goes with --interfaces separate only");
   }
 

@@ -106,7 +106,7 @@ PartMesh mesh_solids(const Assembly& assembly, const MeshOptions& options, const
 PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& options, const Monitor& monitor) {
   const auto read_start = Monitor::Clock::now();
   const Assembly assembly = read();
-  check(options, assembly.diagonal(), assembly.faces(), assembly.edges(), static_cast<int>(assembly.solids.size()));
+  check(options, assembly.diagonal(), {assembly.faces(), assembly.edges(), assembly.vertices(), static_cast<int>(assembly.solids.size())});
   PartMesh made;
   double read_seconds = 0;
   if (assembly.solids.size() == 1) {

@@ -73,7 +73,7 @@ MeshOptions structural(const MeshOptions& options) {
 
 /// Checked options, those of the solid as those of all there is.
 MeshOptions checked(const CadModel& model, const MeshOptions& given) {
-  check(given, model.diagonal(), model.faces(), model.edges());
+  check(given, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
   MeshOptions options = without_solids(given);
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);

@@ -22,6 +22,11 @@ MeshOptions options_of_solid(const MeshOptions& options, const Assembly& assembl
     if (d.solid > 0) return d.solid != solid;
     return d.edge > 0 ? !has(model.edges(), d.edge) : other_face(d.faces[0]);
   });
+  std::erase_if(own.refine, [&](const LocalRefinement& r) {
+    if (r.entity.dim == 3) return r.entity.id != solid;
+    const std::vector<int>& numbers = r.entity.dim == 2 ? model.faces() : r.entity.dim == 1 ? model.edges() : model.vertices();
+    return !has(numbers, r.entity.id);
+  });
   std::erase_if(own.bias, [&](const EdgeBias& b) { return !has(model.edges(), b.edge); });
   std::erase_if(own.sizes, [&](const LocalSize& s) { return s.solid > 0 ? s.solid != solid : other_face(s.face); });
   const auto by_solid = std::find_if(own.sizes.begin(), own.sizes.end(), [](const LocalSize& s) { return s.solid > 0; });
@@ -48,6 +53,9 @@ MeshOptions without_solids(const MeshOptions& options) {
     plain.min_layers = std::max(plain.min_layers, d.at_least);
     return true;
   });
+  for (LocalRefinement& r : plain.refine) {
+    if (r.entity.dim == 3) r.entity.id = 1;
+  }
   return plain;
 }
 

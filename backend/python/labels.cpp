@@ -14,7 +14,7 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   int face_count = 0;
   const LabelledPart part = run_released(callbacks, options, [&] {
     const CadModel model = read_part<CadModel>(path, brep, object, options, callbacks.monitor);
-    check(options, model.diagonal(), model.faces(), model.edges());
+    check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
     face_count = model.face_count();
     return label_part(model, options, callbacks.monitor, Until::kLabels);
   });

@@ -116,6 +116,10 @@
       <translation>Lokale Größen</translation>
     </message>
     <message>
+      <source>Local refinement</source>
+      <translation>Örtliche Verfeinerung</translation>
+    </message>
+    <message>
       <source>From {} to {}{}.</source>
       <translation>Von {} bis {}{}.</translation>
     </message>
@@ -233,7 +237,7 @@
     </message>
     <message>
       <source>Bias</source>
-      <translation>Wichtung</translation>
+      <translation>Abstufung</translation>
     </message>
     <message>
       <source>Length of the last element along edges over that of the first</source>
@@ -680,12 +684,12 @@
       <translation>Andere Kantenlängen an CAD-Flächen, entlang der Achsen und von Volumenkörpern, etwa Face3=0.5,X=2,Solid2=1.5.</translation>
     </message>
     <message>
-      <source>Bias</source>
-      <translation>Abstufung</translation>
+      <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
+      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante zu der des ersten, wie Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
     </message>
     <message>
-      <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
-      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante durch die des ersten, etwa Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
+      <source>Times that the hexahedra at a CAD face, edge or vertex, and no others, are divided into three along every edge, such as Face7=2,Edge3=1.</source>
+      <translation>Wie oft die Hexaeder an einer CAD-Fläche, -Kante oder -Ecke, und nur diese, entlang jeder Kante in drei geteilt werden, etwa Face7=2,Edge3=1.</translation>
     </message>
     <message>
       <source>Interfaces</source>
@@ -694,10 +698,6 @@
     <message>
       <source>Where solids touch: one mesh with common nodes (conform), or a mesh of each with nodes of its own, for ties and contact (separate).</source>
       <translation>Wo Volumenkörper sich berühren: ein Netz mit gemeinsamen Knoten (conform), oder von jedem eines mit eigenen Knoten, für Verklebung und Kontakt (separate).</translation>
-    </message>
-    <message>
-      <source>Length of the last hexahedron along a CAD edge over that of the first, such as Edge4=2.0; from its start to its end.</source>
-      <translation>Länge des letzten Hexaeders entlang einer CAD-Kante zu der des ersten, wie Edge4=2.0; von ihrem Anfang zu ihrem Ende.</translation>
     </message>
     <message>
       <source>Feature angle</source>

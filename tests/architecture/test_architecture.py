@@ -68,7 +68,7 @@ class Stages(unittest.TestCase):
     def test_the_list_was_read(self):
         self.assertEqual(list(self.uses)[0], "core")
         self.assertEqual(list(self.uses)[-2:], ["pipeline", "job"])
-        self.assertEqual(len(self.uses), 13)
+        self.assertEqual(len(self.uses), 14)
 
     def test_stages_use_earlier_ones_only(self):
         order = list(self.uses)

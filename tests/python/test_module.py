@@ -18,7 +18,7 @@ class Options(unittest.TestCase):
         self.assertLessEqual({"size", "hexes", "coarsest", "order", "time_limit", "element_type", "labels", "threads"}, set(table))
         for option in table.values():
             self.assertEqual(set(option), {"name", "unit", "meaning", "type", "default", "min", "max", "choices", "advanced"})
-            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces"))
+            self.assertIn(option["type"], ("double", "int", "bool", "string", "labels", "frame", "divisions", "sizes", "bias", "faces", "refine"))
         self.assertEqual(table["order"]["default"], 2)
 
     def test_bad_options_are_named(self):

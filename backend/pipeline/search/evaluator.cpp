@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/quality.h"
@@ -20,6 +21,7 @@
 #include "pipeline/demands.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/gate.h"
+#include "pipeline/local_refinement.h"
 #include "pipeline/search/give_up.h"
 #include "pipeline/shortfalls.h"
 #include "pipeline/vertex_room.h"
@@ -44,6 +46,9 @@ constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1, kCountPower = 0.4, kCount
 constexpr int kCountRounds = 8, kRecounts = 2;
 // Times that round CAD edges get more cells.
 constexpr int kRoundingRounds = 2;
+// Cells of the whole grid from which bores may be refined locally instead, if they ask for so many times what the grid has without them, and if it takes at
+// most this share of the cells: refined cells are of a scaled Jacobian of .5, those of the grid near to 1.
+constexpr double kManyCells = 3000, kCarried = 4, kLocalShare = 0.6;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 
@@ -89,6 +94,7 @@ StageFailed inverted(const FitReport& fitted) {
 struct Evaluator::Draft : Made {
   Plan plan;
   bool roomy = false;  // with cells enough for CAD edges that go on from each other
+  EdgeLevels levels;   // round bores that are to be refined locally
   const Structure* structure = nullptr;
   HexComplex complex;
   Quantization quantization;
@@ -97,6 +103,11 @@ struct Evaluator::Draft : Made {
   int choice = -1;  // of the padding plans
   FitReport fitted;
   int padded_hexes = 0;  // that padding added
+  // Where cells were refined locally: the mesh before, and per hex its cell there.
+  PaddedMesh unrefined;
+  std::vector<int> parent;
+  /// With the cells of the whole part alone.
+  const PaddedMesh& before_refining() const { return parent.empty() ? padded : unrefined; }
 };
 
 const Evaluator::Draft& Evaluator::draft_in(const Outcome& outcome) { return static_cast<const Draft&>(*outcome.made); }
@@ -115,6 +126,11 @@ class Evaluator::Work {
 
   Outcome anew(const Plan& plan) {
     Draft draft = fitted(plan, options_.divisions);
+    if (!draft.levels.empty() && draft.fitted.inverted > 0) {
+      monitor_.log("refine: the grid goes through the whole part instead");
+      may_refine_bores_ = false;
+      draft = fitted(plan, options_.divisions);
+    }
     if (options_.hexes > 0) recount(plan, draft);
     Outcome outcome = closed(std::move(draft));
     if (outcome.kind == Outcome::Kind::kMesh) retry_padded(plan, outcome);
@@ -187,13 +203,13 @@ class Evaluator::Work {
 
   // Padding can add cells to a division that has a maximum: fewer are asked for then.
   void retry_padded(const Plan& plan, Outcome& outcome) {
-    const PaddedMesh& padded = draft_in(outcome).padded;
+    const PaddedMesh& padded = draft_in(outcome).before_refining();
     const auto unmet = [&](const PaddedMesh& m) { return unmet_divisions(m.mesh, m.association, options_.divisions).size(); };
     const Divisions fewer = allow_for_padding(padded.mesh, padded.association, options_.divisions);
     if (fewer == options_.divisions || fits_left_ <= 0) return;
     try {
       Outcome again = closed(fitted(plan, fewer));
-      if (again.kind == Outcome::Kind::kMesh && unmet(draft_in(again).padded) < unmet(padded)) outcome = std::move(again);
+      if (again.kind == Outcome::Kind::kMesh && unmet(draft_in(again).before_refining()) < unmet(padded)) outcome = std::move(again);
     } catch (const StageFailed& e) {
       monitor_.log("with fewer divisions: " + e.stage() + ": " + e.what());
     } catch (const InvalidInput& e) {
@@ -202,9 +218,15 @@ class Evaluator::Work {
   }
 
   Draft fitted(const Plan& plan, const Divisions& divisions) {
-    Draft draft = on_grid(plan, false, divisions);
-    if (plan.bounded) own_.bounded_grids_.push_back(grid_of(draft));
+    levels_.clear();
+    Draft draft = on_grid(plan, false, divisions, may_refine_bores_ && plan.bounded && options_.hexes == 0);
     Routed routes = routed(draft, draft.complex);
+    if (!levels_.empty() && !saves_cells(draft, routes.association)) {
+      levels_.clear();
+      draft = on_grid(plan, false, divisions);
+      routes = routed(draft, draft.complex);
+    }
+    if (plan.bounded && levels_.empty()) own_.bounded_grids_.push_back(grid_of(draft));
     if (!routes.association.lost_edges.empty()) give_room(draft, routes, divisions);
     Association association = divided(draft, std::move(routes));
     if (!options_.coarsest && plan.structure.min_bend == 0 && own_.size_ > kCoarse * model_.diagonal()) {
@@ -222,7 +244,7 @@ class Evaluator::Work {
   // CAD edges take other ways on the grid than their images do: those with too few mesh edges for their turning get more cells, as long as that helps.
   void round_out(Draft& draft, Association& association, const Divisions& divisions) {
     more_elements_.clear();
-    const std::vector<RoundEdge> edges = round_edges(model_, effective_per_circle(options_));
+    const std::vector<RoundEdge> edges = before_levels(round_edges(model_, effective_per_circle(options_)), levels_);
     const auto missing = [&](const Association& a) { return missing_elements(edges, elements_on_edges(a, model_.edge_count())); };
     const auto sum = [](const std::vector<int>& v) { return std::accumulate(v.begin(), v.end(), 0); };
     std::vector<int> before = missing(association);
@@ -274,7 +296,8 @@ class Evaluator::Work {
   }
 
   // The plan up to its grid of hexahedra. `roomy`: cells enough for CAD edges that go on from each other inside a chart.
-  Draft on_grid(const Plan& plan, bool roomy, const Divisions& divisions) {
+  // `refining`: bores may be left to local refinement, which is decided then.
+  Draft on_grid(const Plan& plan, bool roomy, const Divisions& divisions, bool refining = false) {
     Draft draft;
     draft.plan = plan;
     draft.roomy = roomy;
@@ -286,7 +309,19 @@ class Evaluator::Work {
     for (const int e : model_.edges()) {
       if (out[e] && !own_.ignored_[e]) draft.options.edge_chains[e].clear();
     }
-    draft.quantization = clock_.stage("quantize", [&] { return quantized(plan, s, draft.options, roomy, divisions); });
+    draft.quantization = clock_.stage("quantize", [&] {
+      Quantization whole = quantized(plan, s, draft.options, roomy, divisions);
+      whole_cells_ = refining ? cell_count(s.blocks, whole.value) : 0;
+      if (whole_cells_ <= kManyCells) return whole;
+      const std::vector<RoundEdge> edges = round_edges(model_, effective_per_circle(options_));
+      levels_ = levels_round_bores(edges);
+      if (levels_.empty()) return whole;
+      Quantization fewer = quantized(plan, s, draft.options, roomy, divisions);
+      if (whole_cells_ > kCarried * cell_count(s.blocks, fewer.value)) return fewer;
+      levels_.clear();
+      return whole;
+    });
+    draft.levels = levels_;
     draft.complex = clock_.stage("hex", [&] {
       const std::vector<int>& value = draft.quantization.value;
       Spacing spacing = graded_spacing(s.blocks, s.map, value, options_.growth);
@@ -296,6 +331,21 @@ class Evaluator::Work {
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(draft.complex.mesh.hexes.size()) + " hexes");
     draft.options.size = typical_edge(draft.complex.mesh);
     return draft;
+  }
+
+  // Whether local refinement round bores takes far fewer cells than the grid of the whole part.
+  bool saves_cells(const Draft& draft, const Association& association) const {
+    const RefinePlan plan = bores_of(draft, association);
+    if (plan.empty()) return false;
+    const auto cells = static_cast<double>(count_refined(draft.complex.mesh, association, plan, monitor_));
+    const bool saves = cells < kLocalShare * whole_cells_;
+    monitor_.log("refine: " + std::to_string(plan.round.size()) + " bores by themselves would take about " + std::to_string(std::lround(cells)) +
+                 " cells, the grid of the whole part " + std::to_string(std::lround(whole_cells_)) + (saves ? ": by themselves" : ": by the grid"));
+    return saves;
+  }
+
+  RefinePlan bores_of(const Draft& draft, const Association& association) const {
+    return plan_for_bores(round_edges(model_, effective_per_circle(options_)), draft.levels, association, model_.edge_count());
   }
 
   Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
@@ -310,7 +360,7 @@ class Evaluator::Work {
       room.insert(room.end(), more.begin(), more.end());
     }
     const std::vector<DistanceConstraint> own =
-        plan.bounded ? part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_) : std::vector<DistanceConstraint>();
+        plan.bounded ? part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_, levels_) : std::vector<DistanceConstraint>();
     std::vector<DistanceConstraint> bounds = own;
     Quantization result = integers(s, scale, divisions, room, bounds, plan.bounded);
     if (options_.hexes > 0) {
@@ -411,6 +461,8 @@ class Evaluator::Work {
                  std::to_string(draft.fitted.inverted) + " inverted");
     if (draft.choice < 0) draft.choice = static_cast<int>(chosen);
     draft.padded = std::move(choices[chosen]);
+    draft.parent.clear();
+    if (draft.fitted.inverted == 0) refine_places(draft, fit_options);
     for (const WorstCell& cell : worst_cells(draft.padded.mesh, draft.padded.association, 3)) {
       std::string line = "fit: cell at";
       for (double x : own_.pose_.back(cell.centre)) line += " " + std::to_string(x);
@@ -418,6 +470,17 @@ class Evaluator::Work {
       for (int f : cell.faces) line += " " + name({2, f});
       monitor_.log(line);
     }
+  }
+
+  // Locally, where the mesh of the whole part is good.
+  void refine_places(Draft& draft, const FitOptions& fit_options) {
+    RefinePlan plan = bores_of(draft, draft.padded.association);
+    plan.everywhere = options_.refine;
+    if (plan.empty()) return;
+    LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_, draft.padded, plan, fit_options, monitor_); });
+    draft.unrefined = std::exchange(draft.padded, std::move(refined.padded));
+    draft.parent = std::move(refined.parent);
+    draft.fitted = refined.fitted;
   }
 
   Evaluator& own_;
@@ -428,7 +491,10 @@ class Evaluator::Work {
   const int fits_;
   int fits_left_;
   std::map<int, int> more_elements_;  // per round CAD edge, where a grid gave it fewer than it needs
-  double grid_share_ = 1;             // of the grid's cells among all, where a number of them is asked for
+  EdgeLevels levels_;                 // round bores that are left to local refinement
+  bool may_refine_bores_ = true;
+  double whole_cells_ = 0;  // of the grid that gives bores their elements without it
+  double grid_share_ = 1;   // of the grid's cells among all, where a number of them is asked for
 };
 
 Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor)
@@ -467,7 +533,12 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   result.association = draft.padded.association;
   std::vector<int> blocks = draft.complex.hex_block;
   if (options_.coarsest) std::iota(blocks.begin(), blocks.end(), 0);
-  result.hex_block = carry_blocks(result.mesh, std::move(blocks));
+  result.hex_block = carry_blocks(draft.before_refining().mesh, std::move(blocks));
+  if (!draft.parent.empty()) {
+    std::vector<int> of_parts;
+    for (const int parent : draft.parent) of_parts.push_back(result.hex_block[parent]);
+    result.hex_block = std::move(of_parts);
+  }
 
   MeshReport& r = result.report;
   r.version = POLYCUBE_VERSION;

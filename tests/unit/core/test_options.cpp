@@ -142,17 +142,32 @@ TEST(Options, FacesToKeepAreReadSortedAndOnce) {
     EXPECT_THAT(complaint({{"keep_faces", bad}}), HasSubstr("--keep-faces")) << bad;
 }
 
+TEST(Options, LocalRefinement) {
+  const MeshOptions options = parse_options({{"refine", "Face7=2, Edge3=1,Vertex2=6,Solid1=1"}});
+  const LocalRefinements wanted{{{2, 7}, 2}, {{1, 3}, 1}, {{0, 2}, 6}, {{3, 1}, 1}};
+  EXPECT_EQ(options.refine, wanted);
+  for (const OptionSpec& option : option_table()) {
+    if (option.name != "refine") continue;
+    EXPECT_EQ(parse_options({{"refine", option_text(options, option)}}).refine, wanted);
+  }
+  EXPECT_THAT(complaint({{"refine", "Face1=0"}}), HasSubstr("from 1 to 6, not 0"));
+  EXPECT_THAT(complaint({{"refine", "Face1=7"}}), HasSubstr("from 1 to 6, not 7"));
+  EXPECT_THAT(complaint({{"refine", "Face1=2,Face1=1"}}), HasSubstr("Face1 is given twice"));
+  for (const char* bad : {"Face1", "Face1=", "Face1=x", "Face1=1.5", "Face0=1", "X=1", "Face1-Face2=1", "Face1=1,,Face2=1"})
+    EXPECT_THAT(complaint({{"refine", bad}}), HasSubstr("--refine: '")) << bad;
+}
+
 TEST(Options, AgainstThePart) {
-  const std::vector<int> faces{1, 2, 3, 4, 5, 6}, edges{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const PartNumbers box{{1, 2, 3, 4, 5, 6}, {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, {1, 2, 3, 4, 5, 6, 7, 8}};
   MeshOptions o;
   o.size = 11;
-  EXPECT_THROW(check(o, 10, faces, edges), InvalidInput);
-  EXPECT_NO_THROW(check(o, 12, faces, edges));
+  EXPECT_THROW(check(o, 10, box), InvalidInput);
+  EXPECT_NO_THROW(check(o, 12, box));
   o.labels = {{7, 0}};
-  EXPECT_THROW(check(o, 12, faces, edges), InvalidInput);
+  EXPECT_THROW(check(o, 12, box), InvalidInput);
   const auto complains = [&](const char* name, const char* text) {
     try {
-      check(parse_options({{name, text}}), 12, faces, edges);
+      check(parse_options({{name, text}}), 12, box);
     } catch (const InvalidInput& e) {
       return std::string(e.what());
     }
@@ -163,6 +178,11 @@ TEST(Options, AgainstThePart) {
   EXPECT_THAT(complains("sizes", "Face9=2"), HasSubstr("Face9"));
   EXPECT_THAT(complains("keep_faces", "Face7"), HasSubstr("--keep-faces: Face7 does not exist"));
   EXPECT_EQ(complains("sizes", "Face6=2"), "");
+  EXPECT_THAT(complains("refine", "Face7=1"), HasSubstr("--refine: Face7 does not exist, the part has 6 faces"));
+  EXPECT_THAT(complains("refine", "Edge13=1"), HasSubstr("--refine: Edge13 does not exist, the part has 12 edges"));
+  EXPECT_THAT(complains("refine", "Vertex9=1"), HasSubstr("--refine: Vertex9 does not exist, the part has 8 vertices"));
+  EXPECT_THAT(complains("refine", "Solid2=1"), HasSubstr("--refine: Solid2 does not exist, the part has 1 solid"));
+  EXPECT_EQ(complains("refine", "Face6=2,Edge12=1,Vertex8=3,Solid1=1"), "");
 }
 
 TEST(Options, WithoutASizeThePartDecides) {

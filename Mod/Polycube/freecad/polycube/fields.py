@@ -17,6 +17,7 @@ _TITLES = {
     "sew": noop("Sew faces"),
     "frame": noop("Directions of X, Y"),
     "sizes": noop("Local sizes"),
+    "refine": noop("Local refinement"),
 }
 _ORDERS = ["1st", "2nd"]
 _UNITS = {"mm": "mm", "degrees": "deg"}

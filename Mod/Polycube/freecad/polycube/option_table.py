@@ -66,8 +66,8 @@ def _plain(option, value):
     try:
         if kind == "labels":
             return _by_name(name, {face: str(axis) for face, axis in value.items()})
-        if kind in ("sizes", "divisions", "bias"):
-            if kind in ("divisions", "bias") and any(isinstance(what, Integral) for what in value):
+        if kind in ("sizes", "divisions", "bias", "refine"):
+            if kind in ("divisions", "bias", "refine") and any(isinstance(what, Integral) for what in value):
                 raise TypeError  # a number may be that of a face or of an edge
             return _by_name(name, {what: amount if isinstance(amount, str) and kind == "divisions" else _number(option, amount) for what, amount in value.items()})
         if kind == "faces":
@@ -84,6 +84,7 @@ def _plain(option, value):
         wanted = {
             "labels": 'faces with their axes such as {"Face3": "+X"}',
             "sizes": 'faces or axes with their sizes such as {"Face3": 0.5, "X": 2}',
+            "refine": 'faces, edges or vertices with their levels such as {"Face7": 2, "Edge3": 1}',
             "bias": 'edges with ratios such as {"Edge4": 2.0}',
             "divisions": 'edges or pairs of faces with their elements such as {"Edge4": 6, "Face1-Face2": "3.."}',
             "faces": 'faces such as ["Face3", "Face7"]',

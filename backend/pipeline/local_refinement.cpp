@@ -1,0 +1,106 @@
+#include "pipeline/local_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "core/hexahedron.h"
+#include "core/options.h"
+#include "pipeline/shortfalls.h"
+#include "refine/refine.h"
+
+namespace polycube {
+namespace {
+
+int most_levels(const RefinePlan& plan) {
+  int most = 0;
+  for (const auto* list : {&plan.everywhere, &plan.round}) {
+    for (const LocalRefinement& r : *list) most = std::max(most, r.levels);
+  }
+  return most;
+}
+
+/// The cells that the last level makes of those at the entities alone: the least that comes of it.
+void check_levels(const HexMesh& mesh, const Association& association, const LocalRefinements& refinements) {
+  for (const LocalRefinement& r : refinements) {
+    const std::vector<char> cells = cells_at(mesh, association, r.entity);
+    check_count(static_cast<double>(std::count(cells.begin(), cells.end(), 1)) * std::pow(3.0, r.entity.dim * (r.levels - 1)) * 27);
+  }
+}
+
+/// The cells that level `level` (from 1) divides. Where another level follows, also those around them, so that its templates are among cells of even size.
+std::vector<char> cells_of(const HexMesh& mesh, const Association& association, const LocalRefinements& refinements, int level) {
+  std::vector<char> result(mesh.hexes.size(), 0);
+  for (const LocalRefinement& r : refinements) {
+    if (r.levels < level) continue;
+    std::vector<char> cells = cells_at(mesh, association, r.entity);
+    if (r.levels > level) cells = with_neighbours(mesh, cells);
+    for (std::size_t h = 0; h < cells.size(); ++h) result[h] |= cells[h];
+  }
+  return result;
+}
+
+RefineRegion region_of(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int level) {
+  RefineRegion region{cells_of(mesh, association, plan.everywhere, level), {}};
+  if (plan.round.empty()) return region;
+  for (std::size_t h = 0; h < region.cells.size(); ++h) {
+    if (!region.cells[h]) continue;
+    for (const auto& [c, d] : kHexEdges) region.along.push_back({mesh.hexes[h][c], mesh.hexes[h][d]});
+  }
+  for (std::size_t s = 0; s < association.segments.size(); ++s) {
+    if (std::find(plan.edges.begin(), plan.edges.end(), association.segment_edge[s]) != plan.edges.end()) region.along.push_back(association.segments[s]);
+  }
+  const std::vector<char> round = cells_of(mesh, association, plan.round, level);
+  for (std::size_t h = 0; h < round.size(); ++h) region.cells[h] |= round[h];
+  return region;
+}
+
+}  // namespace
+
+RefinePlan plan_for_bores(const std::vector<RoundEdge>& edges, const EdgeLevels& levels, const Association& association, int edge_count) {
+  const std::vector<int> elements = elements_on_edges(association, edge_count);
+  std::map<int, int> round;  // per circle: elements
+  for (const RoundEdge& r : edges) {
+    if (r.circle > 0) round[r.circle] += elements[r.edge];
+  }
+  RefinePlan plan;
+  std::map<int, int> bores;
+  for (const RoundEdge& r : edges) {
+    if (!levels.contains(r.edge) || elements[r.edge] == 0) continue;
+    int level = 0;
+    for (int count = round.at(r.circle); count < r.round; count *= 3) ++level;
+    if (level == 0) continue;
+    bores[r.bore] = std::max(bores[r.bore], level);
+    plan.edges.push_back(r.edge);
+  }
+  for (const auto& [face, level] : bores) plan.round.push_back({{2, face}, level});
+  return plan;
+}
+
+std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, const Monitor& monitor) {
+  return refine_cells(mesh, association, region_of(mesh, association, plan, 1), monitor).mesh.hexes.size();
+}
+
+LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, const RefinePlan& plan, const FitOptions& options, const Monitor& monitor) {
+  check_levels(padded.mesh, padded.association, plan.everywhere);
+  LocallyRefined result{padded, {}, std::vector<int>(padded.mesh.hexes.size())};
+  std::iota(result.parent.begin(), result.parent.end(), 0);
+  for (int level = 1; level <= most_levels(plan); ++level) {
+    const std::size_t before = result.padded.mesh.hexes.size();
+    RefinedMesh refined =
+        refine_cells(result.padded.mesh, result.padded.association, region_of(result.padded.mesh, result.padded.association, plan, level), monitor);
+    result.padded.mesh = std::move(refined.mesh);
+    result.padded.association = std::move(refined.association);
+    for (int& parent : refined.parent) parent = result.parent[parent];
+    result.parent = std::move(refined.parent);
+    result.fitted = fit(model, result.padded.mesh, result.padded.association, options, monitor);
+    monitor.log("refine: level " + std::to_string(level) + ", " + std::to_string(before) + " cells to " + std::to_string(result.padded.mesh.hexes.size()) +
+                ", min SJ " + std::to_string(result.fitted.min_scaled_jacobian) + ", mean " + std::to_string(result.fitted.mean_scaled_jacobian) + ", " +
+                std::to_string(result.fitted.inverted) + " inverted");
+    if (result.fitted.inverted > 0) break;
+  }
+  return result;
+}
+
+}  // namespace polycube

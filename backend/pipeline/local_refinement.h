@@ -1,0 +1,35 @@
+// Local refinement of a mesh that stands on the CAD: divided, and fitted again, level by level.
+#pragma once
+
+#include "cad/cad.h"
+#include "core/demands.h"
+#include "fit/fit.h"
+#include "pad/pad.h"
+#include "pipeline/circles.h"
+
+namespace polycube {
+
+/// What is to be refined of a mesh.
+struct RefinePlan {
+  LocalRefinements everywhere{};  ///< along every edge
+  LocalRefinements round{};       ///< in the sheets only that cross the CAD edges `edges`
+  std::vector<int> edges{};
+  bool empty() const { return everywhere.empty() && round.empty(); }
+};
+
+/// What brings the bores among `edges` (with `levels`) to the elements that they need, where the mesh has fewer.
+RefinePlan plan_for_bores(const std::vector<RoundEdge>& edges, const EdgeLevels& levels, const Association& association, int edge_count);
+
+/// Cells after the first level of the plan.
+std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, const Monitor& monitor);
+
+struct LocallyRefined {
+  PaddedMesh padded;
+  FitReport fitted;
+  std::vector<int> parent;  ///< per hex: that of the mesh before all levels; ascending
+};
+
+/// `padded` has been fitted. Throws InvalidInput where the levels would take more than kMostHexes cells, before anything is done about them.
+LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, const RefinePlan& plan, const FitOptions& options, const Monitor& monitor);
+
+}  // namespace polycube

@@ -77,6 +77,22 @@ class OptionsAnew(DocumentTest):
         self.assertEqual(option_table.read(obj), {"hexes": 100, "min_layers": 2})
         self.assertEqual(obj.MeshState, objects.CURRENT)
 
+    def test_local_refinement(self):
+        obj = polycube.create_fem_mesh(self.box, size=10, order=1)
+        self.assertEqual(obj.Refine, "")
+        coarse = obj.FemMesh
+        polycube.update_fem_mesh(obj, refine={"Face1": 1})
+        self.assertEqual(obj.Refine, "Face1=1")
+
+        def quads(mesh):
+            return [len(mesh.getGroupElements(group)) for group in mesh.Groups if mesh.getGroupName(group) == "Face1" and mesh.getGroupElementType(group) == "Face"]
+
+        self.assertEqual(quads(obj.FemMesh), [9 * count for count in quads(coarse)])
+        self.assertEqual(len(obj.FemMesh.Groups), len(coarse.Groups))
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.update_fem_mesh(obj, refine="Face7=1")
+        self.assertEqual(obj.Refine, "Face1=1")
+
     def test_a_bad_option_changes_nothing(self):
         obj = polycube.create_fem_mesh(self.box, size=10)
         before = obj.MeshedOptions, obj.Report

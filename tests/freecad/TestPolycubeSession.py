@@ -26,6 +26,9 @@ class Sessions(unittest.TestCase):
         finer = self.session.mesh(size=FreeCAD.Units.Quantity("3 mm"))
         self.assertFalse({"tet", "deform", "blocks"} & stages(finer))
         self.assertGreater(len(finer.hexes), len(first.hexes))
+        refined = self.session.mesh(refine={"Face7": 1})
+        self.assertFalse({"tet", "deform", "blocks"} & stages(refined))
+        self.assertGreater(len(refined.hexes), len(first.hexes))
         self.assertLess(abs(len(self.session.mesh(hexes=3000).hexes) - 3000), 450)
         np.testing.assert_array_equal(self.session.mesh().nodes, first.nodes)
 

@@ -439,7 +439,7 @@ class EveryOption(PanelTest):
 
     def test_what_is_set_reaches_the_object_and_comes_back(self):
         panel = self.meshed()
-        values = {"effort": "thorough", "min_layers": 2, "divisions": "Edge1=4", "keep_faces": "Face1", "feature_angle": 5.0, "threads": 1, "sew": False}
+        values = {"effort": "thorough", "min_layers": 2, "divisions": "Edge1=4", "refine": "Face2=1", "keep_faces": "Face1", "feature_angle": 5.0, "threads": 1, "sew": False}
         values.update(frame="0,1,0/-1,0,0", time_limit=90.0)
         for name, value in values.items():
             panel.field(name).value = value

@@ -37,6 +37,21 @@ class Demands(FolderTest):
         self.assertIn("Face1-Face2=3", str(caught.exception))
         self.assertIn("at least 4 elements through every wall", str(caught.exception))
 
+    def test_local_refinement(self):
+        text = box().exportBrepToString()
+        plain = _polycube.mesh(brep=text, size=1, order=2)
+        for given in ({"Face1": 1, "Vertex8": 2}, "Face1=1,Vertex8=2"):
+            mesh = _polycube.mesh(brep=text, size=1, order=2, refine=given)
+            self.assertEqual(mesh.report["options"]["refine"], "Face1=1,Vertex8=2")
+            self.assertEqual(len(mesh.groups["Face1"]["quads"]), 9 * len(plain.groups["Face1"]["quads"]))
+            self.assertEqual(set(mesh.groups), set(plain.groups))
+            self.assertGreater(mesh.scaled_jacobian.min(), 0.25)
+            self.assertAlmostEqual(mesh.report["volume"]["mesh"], mesh.report["volume"]["cad"], 9)
+        for flag, complaint in (("Face9=1", "Face9 does not exist"), ("Face1=0", "from 1 to 6"), ("Face1=x", "is not of the form"), ("Solid1=6", "more than the")):
+            run = self.run_program("mesh", self.save(box()), "-o", self.path("a.inp"), "--refine", flag)
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (1, 1), run.stderr)
+            self.assertIn(complaint, run.stderr)
+
     def test_unknown_face_is_named(self):
         run = self.run_program("mesh", self.save(box()), "-o", self.path("a.vtu"), "--divisions", "Face1-Face9=2")
         self.assertEqual(run.returncode, 1)

@@ -48,7 +48,7 @@ constexpr int kCountRounds = 8, kRecounts = 2;
 constexpr int kRoundingRounds = 2;
 // Cells of the whole grid from which bores may be refined locally instead, if they ask for so many times what the grid has without them, and if it takes at
 // most this share of the cells: refined cells are of a scaled Jacobian of .5, those of the grid near to 1.
-constexpr double kManyCells = 3000, kCarried = 4, kLocalShare = 0.6;
+constexpr double kManyCells = 3000, kCarried = 3, kLocalShare = 0.5;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 

@@ -41,6 +41,25 @@ std::vector<char> cells_of(const HexMesh& mesh, const Association& association, 
   return result;
 }
 
+/// Mesh edges that leave a CAD face into the cells on it.
+std::vector<Segment> edges_from(const HexMesh& mesh, const Association& association, int face) {
+  std::vector<char> on_face(mesh.points.size(), 0);
+  for (std::size_t q = 0; q < association.quads.size(); ++q) {
+    const auto& patch = association.patches[association.quad_patch[q]];
+    if (!std::binary_search(patch.begin(), patch.end(), face)) continue;
+    for (const int node : association.quads[q]) on_face[node] = 1;
+  }
+  const std::vector<char> cells = cells_at(mesh, association, {2, face});
+  std::vector<Segment> edges;
+  for (std::size_t h = 0; h < cells.size(); ++h) {
+    for (const auto& [c, d] : kHexEdges) {
+      const int a = mesh.hexes[h][c], b = mesh.hexes[h][d];
+      if (cells[h] && on_face[a] != on_face[b]) edges.push_back({a, b});
+    }
+  }
+  return edges;
+}
+
 RefineRegion region_of(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int level) {
   RefineRegion region{cells_of(mesh, association, plan.everywhere, level), {}};
   if (plan.round.empty()) return region;
@@ -50,6 +69,11 @@ RefineRegion region_of(const HexMesh& mesh, const Association& association, cons
   }
   for (std::size_t s = 0; s < association.segments.size(); ++s) {
     if (std::find(plan.edges.begin(), plan.edges.end(), association.segment_edge[s]) != plan.edges.end()) region.along.push_back(association.segments[s]);
+  }
+  for (const LocalRefinement& r : plan.round) {
+    if (r.levels < level) continue;
+    const std::vector<Segment> out = edges_from(mesh, association, r.entity.id);
+    region.along.insert(region.along.end(), out.begin(), out.end());
   }
   const std::vector<char> round = cells_of(mesh, association, plan.round, level);
   for (std::size_t h = 0; h < round.size(); ++h) region.cells[h] |= round[h];

@@ -12,7 +12,7 @@ namespace polycube {
 /// What is to be refined of a mesh.
 struct RefinePlan {
   LocalRefinements everywhere{};  ///< along every edge
-  LocalRefinements round{};       ///< in the sheets only that cross the CAD edges `edges`
+  LocalRefinements round{};       ///< of bores: round them and away from them, not along them; `edges` are their rims
   std::vector<int> edges{};
   bool empty() const { return everywhere.empty() && round.empty(); }
 };

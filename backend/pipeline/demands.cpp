@@ -189,6 +189,15 @@ void check_biases(const CadModel& model, const EdgeBiases& biases) {
   }
 }
 
+void check_refinements(const CadModel& model, const LocalRefinements& refinements) {
+  for (const LocalRefinement& r : refinements) {
+    if (r.entity.dim != 1) continue;
+    const std::string start = "--refine: " + text_of(r) + ": ";
+    if (model.edge(r.entity.id).seam) throw InvalidInput(start + "the edge is a seam, which meshes do not follow");
+    if (model.edge(r.entity.id).degenerate || model.edge(r.entity.id).tiny) throw InvalidInput(start + "the edge is a point");
+  }
+}
+
 QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const MeshOptions& options,
                                  double scale) {
   QuantizeOptions result;

@@ -12,6 +12,7 @@ namespace polycube {
 /// Throws InvalidInput where the mesh cannot have a division: the edge is a seam or a point, the two faces are one.
 void check_divisions(const CadModel& model, const Divisions& divisions);
 void check_biases(const CadModel& model, const EdgeBiases& biases);
+void check_refinements(const CadModel& model, const LocalRefinements& refinements);
 
 /// `options` in the pose of the map; `scale`: cells per unit of the map. Throws StageFailed("quantize", ...) naming the entities when these
 /// blocks cannot keep a demand: faces that are nowhere opposite each other, an edge that does not run along the axes.

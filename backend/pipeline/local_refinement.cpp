@@ -13,6 +13,10 @@
 namespace polycube {
 namespace {
 
+// Cells that are divided only because a region has to be convex are told of where they are more than so much of those asked for and of all (guess: what
+// surprises).
+constexpr double kMuchOfAsked = 1.0 / 3, kMuchOfAll = 0.1;
+
 int most_levels(const RefinePlan& plan) {
   int most = 0;
   for (const auto* list : {&plan.everywhere, &plan.round}) {
@@ -108,12 +112,17 @@ std::size_t count_refined(const HexMesh& mesh, const Association& association, c
 
 LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, const RefinePlan& plan, const FitOptions& options, const Monitor& monitor) {
   check_levels(padded.mesh, padded.association, plan.everywhere);
-  LocallyRefined result{padded, {}, std::vector<int>(padded.mesh.hexes.size())};
+  LocallyRefined result{padded, {}, std::vector<int>(padded.mesh.hexes.size()), {}};
   std::iota(result.parent.begin(), result.parent.end(), 0);
   for (int level = 1; level <= most_levels(plan); ++level) {
     const std::size_t before = result.padded.mesh.hexes.size();
-    RefinedMesh refined =
-        refine_cells(result.padded.mesh, result.padded.association, region_of(result.padded.mesh, result.padded.association, plan, level), monitor);
+    const RefineRegion region = region_of(result.padded.mesh, result.padded.association, plan, level);
+    RefinedMesh refined = refine_cells(result.padded.mesh, result.padded.association, region, monitor);
+    const auto asked = static_cast<double>(std::count(region.cells.begin(), region.cells.end(), 1));
+    const bool spreads = refined.grown > kMuchOfAsked * asked && refined.grown > kMuchOfAll * static_cast<double>(before);
+    if (spreads && result.warnings.empty())
+      result.warnings.push_back("local refinement: " + std::to_string(refined.grown) + " cells are divided besides the " + std::to_string(std::lround(asked)) +
+                                " asked for, since only convex regions have templates round them");
     result.padded.mesh = std::move(refined.mesh);
     result.padded.association = std::move(refined.association);
     for (int& parent : refined.parent) parent = result.parent[parent];
@@ -123,6 +132,11 @@ LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, c
                 ", min SJ " + std::to_string(result.fitted.min_scaled_jacobian) + ", mean " + std::to_string(result.fitted.mean_scaled_jacobian) + ", " +
                 std::to_string(result.fitted.inverted) + " inverted");
     if (result.fitted.inverted > 0) break;
+  }
+  for (const LocalRefinement& r : plan.everywhere) {
+    const std::vector<char> cells = cells_at(padded.mesh, padded.association, r.entity);
+    if (std::find(cells.begin(), cells.end(), 1) == cells.end())
+      result.warnings.push_back("local refinement: " + text_of(r) + " has no cells, as the mesh does not follow it");
   }
   return result;
 }

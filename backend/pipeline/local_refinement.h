@@ -27,6 +27,7 @@ struct LocallyRefined {
   PaddedMesh padded;
   FitReport fitted;
   std::vector<int> parent;  ///< per hex: that of the mesh before all levels; ascending
+  std::vector<std::string> warnings;
 };
 
 /// `padded` has been fitted. Throws InvalidInput where the levels would take more than kMostHexes cells, before anything is done about them.

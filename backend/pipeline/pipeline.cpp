@@ -78,6 +78,7 @@ MeshOptions checked(const CadModel& model, const MeshOptions& given) {
   check_count(options.coarsest || options.hexes > 0 ? 0 : model.volume() / std::pow(effective_size(options, model.diagonal()), 3));
   check_divisions(model, options.divisions);
   check_biases(model, options.bias);
+  check_refinements(model, options.refine);
   return options;
 }
 

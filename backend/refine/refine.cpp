@@ -40,6 +40,7 @@ class Refining {
     for (std::size_t h = 0; h < mesh.hexes.size(); ++h) {
       corners_.push_back({marked_corners(mesh.hexes[h], marked), divided[h]});
       count += static_cast<double>(parts(h).size());
+      if (corners_.back().first == kAllCorners && !region.cells[h]) ++made_.grown;
     }
     check_count(count);
   }

@@ -15,6 +15,7 @@ struct RefinedMesh {
   HexMesh mesh;  ///< nodes of the mesh before keep number and place
   Association association;
   std::vector<int> parent;  ///< per hex: that of the mesh before which it is a part of; ascending
+  int grown = 0;            ///< cells that were divided along every edge though they were not of the region
 };
 
 /// Per hex whether it stands on the CAD entity: with a quad on a face, an edge on an edge, a node on a vertex; all of a solid.

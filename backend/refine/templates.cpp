@@ -8,7 +8,6 @@
 namespace polycube {
 namespace {
 
-constexpr CornerSet kAll = 0xFF;
 // The two nodes in a face with one divided edge stand this far from it, in thirds: of a half, .6 and two thirds the last gives the best cells (.46 in a cube;
 // optimal with one place free each are .48).
 constexpr int kFar = 2;
@@ -151,12 +150,12 @@ std::optional<int> face_of(CornerSet corners) {
 CornerSet with_template(CornerSet corners) {
   if (edges_in(corners).size() < 2) return corners;
   const std::optional<int> face = face_of(corners);
-  return face ? face_set(*face) : kAll;
+  return face ? face_set(*face) : kAllCorners;
 }
 
 std::vector<CellPart> cell_parts(CornerSet corners, const std::array<bool, 3>& divided) {
   const std::vector<CellPart> whole = box_parts({false, false, false});
-  if (corners == kAll) return box_parts(divided);
+  if (corners == kAllCorners) return box_parts(divided);
   const std::vector<std::array<int, 2>> edges = edges_in(corners);
   if (edges.empty()) return whole;
   std::vector<CellPart> parts;

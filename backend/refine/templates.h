@@ -14,6 +14,7 @@ using CellPlace = std::array<int, 3>;
 using CellPart = std::array<CellPlace, 8>;
 /// Corners of a cell, bit by bit.
 using CornerSet = std::uint8_t;
+inline constexpr CornerSet kAllCorners = 0xFF;
 
 /// The smallest set of corners with these that has a template. An edge is divided if both its ends are in the set; a template is there for no such edge, one,
 /// the four of one face, and all twelve.

@@ -106,6 +106,7 @@ struct Evaluator::Draft : Made {
   // Where cells were refined locally: the mesh before, and per hex its cell there.
   PaddedMesh unrefined;
   std::vector<int> parent;
+  std::vector<std::string> refine_warnings;
   /// With the cells of the whole part alone.
   const PaddedMesh& before_refining() const { return parent.empty() ? padded : unrefined; }
 };
@@ -462,6 +463,7 @@ class Evaluator::Work {
     if (draft.choice < 0) draft.choice = static_cast<int>(chosen);
     draft.padded = std::move(choices[chosen]);
     draft.parent.clear();
+    draft.refine_warnings.clear();
     if (draft.fitted.inverted == 0) refine_places(draft, fit_options);
     for (const WorstCell& cell : worst_cells(draft.padded.mesh, draft.padded.association, 3)) {
       std::string line = "fit: cell at";
@@ -480,6 +482,7 @@ class Evaluator::Work {
     LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_, draft.padded, plan, fit_options, monitor_); });
     draft.unrefined = std::exchange(draft.padded, std::move(refined.padded));
     draft.parent = std::move(refined.parent);
+    draft.refine_warnings = std::move(refined.warnings);
     draft.fitted = refined.fitted;
   }
 
@@ -564,6 +567,7 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   if (!draft.plan.bounded) r.warnings.push_back("the size alone decides: with the cells that walls and circles ask for the mesh would be poor or none");
   if (draft.plan.refine != 1) r.warnings.push_back("the cells are finer than asked for");
   for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
+  r.warnings.insert(r.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());
   for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
   for (const auto& patch : result.association.patches) {
     if (patch.size() < 2 || !std::binary_search(r.capture.ignored_faces.begin(), r.capture.ignored_faces.end(), patch[0])) continue;

@@ -15,6 +15,7 @@
 namespace polycube {
 namespace {
 
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -114,6 +115,19 @@ TEST(LocalRefinement, OfASessionIsThatOfItsOwnOptions) {
   EXPECT_THROW(session.mesh(options_of("Solid1=6"), Monitor()), InvalidInput);  // too many cells
   EXPECT_THROW(session.mesh(options_of("Face7=1"), Monitor()), InvalidInput);
   EXPECT_EQ(session.mesh(MeshOptions(), Monitor()).mesh.hexes, plain.mesh.hexes);
+}
+
+TEST(LocalRefinement, TellsWhereItSpreadsAndRefusesASeam) {
+  const CadModel model = CadModel::from_brep(shapes::cylinder(5, 10));
+  const int side = face_of(model, SurfaceKind::kCylinder);
+  // The cells at a shaft's side are a ring round all others.
+  const MeshResult result = mesh(model, parse_options({{"size", "3"}, {"refine", "Face" + std::to_string(side) + "=1"}}), Monitor());
+  EXPECT_THAT(result.report.warnings, Contains(HasSubstr("only convex regions have templates")));
+  EXPECT_THAT(check(result.mesh, result.association), IsEmpty());
+  for (const int e : model.edges()) {
+    if (!model.edge(e).seam) continue;
+    EXPECT_THROW(mesh(model, options_of(("Edge" + std::to_string(e) + "=1").c_str()), Monitor()), InvalidInput);
+  }
 }
 
 TEST(LocalRefinement, OfSeveralSolids) {

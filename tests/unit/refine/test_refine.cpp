@@ -23,7 +23,7 @@ double volume(const HexMesh& mesh) {
 }
 
 RefinedMesh refined(const Grid& grid, const CadRef& entity, int levels = 1) {
-  RefinedMesh result{grid.mesh, grid.association, {}};
+  RefinedMesh result{grid.mesh, grid.association, {}, 0};
   for (int level = 0; level < levels; ++level) {
     RefinedMesh next = refine_cells(result.mesh, result.association, {cells_at(result.mesh, result.association, entity), {}}, Monitor());
     result = std::move(next);
@@ -39,6 +39,7 @@ void expect_sound(const HexMesh& before, const RefinedMesh& after, double least 
   EXPECT_GT(quality.min_scaled_jacobian, least);
   EXPECT_NEAR(volume(after.mesh), volume(before), 1e-9 * volume(before));
   EXPECT_TRUE(std::equal(before.points.begin(), before.points.end(), after.mesh.points.begin()));
+  EXPECT_GE(after.grown, 0);
   EXPECT_TRUE(std::is_sorted(after.parent.begin(), after.parent.end()));
   EXPECT_EQ(after.parent.size(), after.mesh.hexes.size());
 }
@@ -113,6 +114,7 @@ TEST(RefineCells, GrowsToWhereThereAreTemplates) {
   }
   const RefinedMesh result = refine_cells(grid.mesh, grid.association, {cells, {}}, Monitor());
   expect_sound(grid.mesh, result);
+  EXPECT_EQ(result.grown, 3);  // one a layer
 }
 
 TEST(RefineCells, OnlyInTheSheetsAskedFor) {

@@ -121,6 +121,7 @@ class Fitting {
     place_on_cad(model_, mesh_, association_, chains_, entities_, monitor_);
     best_ = mesh_.points;
     score_ = rate();
+    if (options_.keep_sizes) kept_lengths_ = target_lengths(mesh_, graph_, 0);
     monitor_.progress("fit", 0.15);
     untangle(whole_, 20, start_, kRounds);
   }
@@ -184,6 +185,8 @@ class Fitting {
   }
 
  private:
+  std::vector<Vec3> wanted_lengths() const { return options_.keep_sizes ? kept_lengths_ : target_lengths(mesh_, graph_, kSizeSmoothing); }
+
   std::vector<int> movable(const std::vector<int>& hexes) const {
     std::vector<int> nodes;
     for (int h : hexes) nodes.insert(nodes.end(), mesh_.hexes[h].begin(), mesh_.hexes[h].end());
@@ -341,7 +344,7 @@ class Fitting {
     const bool is_whole = region.hexes.size() == mesh_.hexes.size();
     auto& [energy, deepest, round, idle, done] = state;
     for (; !done && round < max_rounds && idle < kPatience; ++round, ++idle) {
-      const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
+      const auto targets = wanted_lengths();
       const std::vector<SkinCorner> corners = with_skin_ ? skin(targets, region) : std::vector<SkinCorner>{};
       const double least = std::min(descent_.min_determinant(targets, region, corners), 0.0);
       if (round == 0 || least < 0) energy.eps = std::max(energy.eps, std::sqrt(1e-6 + 0.04 * least * least));
@@ -386,7 +389,7 @@ class Fitting {
   // One descent on a power of the inverse scaled Jacobian from the best mesh so far. True if that made a better one; else the mesh is as
   // before.
   bool square_up(const CellRegion& region, int power, int iterations, double* gain = nullptr, double floor = 0) {
-    const auto targets = target_lengths(mesh_, graph_, kSizeSmoothing);
+    const auto targets = wanted_lengths();
     const DescentResult result =
         descent_.run({0.1, 1, power, floor}, targets, watching_ ? watching(region) : region, chains_.turns(mesh_.points, entities_), {}, iterations);
     if (gain) *gain = 1 - result.energy / result.start_energy;
@@ -472,6 +475,7 @@ class Fitting {
   Score score_;
   Untangling start_;                                       // of the whole mesh
   std::vector<int> quad_hex_;                              // per boundary quad: the hex it is a side of
+  std::vector<Vec3> kept_lengths_;                         // per hex: what its edges are to be like, where sizes are kept
   bool with_skin_ = false;                                 // untangling looks at boundary quads too
   bool watching_ = false;                                  // cells were inverted inside, and are no more
   double held_ = std::numeric_limits<double>::infinity();  // while polishing: a worst cell above this is no gain

@@ -13,6 +13,8 @@ struct FitOptions {
   double target_scaled_jacobian = 0.3;  ///< work on worse cells goes on until this or no progress
   int max_rounds = 60;
   int threads = 2;  ///< the result does not depend on it
+  /// Cells keep the sizes that they come with; else those of neighbours even out, and small cells beside large ones grow.
+  bool keep_sizes = false;
 };
 
 struct FitReport {

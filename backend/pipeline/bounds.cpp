@@ -155,7 +155,7 @@ std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh
 }
 
 std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value, double growth,
-                                                 double size) {
+                                                 double size, bool local) {
   std::vector<DistanceConstraint> constraints;
   const BlockLayers layers = find_layers(blocks);
   const auto length = [&](int l) { return map.charts[layers.layers[l].high].value - map.charts[layers.layers[l].low].value; };
@@ -183,7 +183,7 @@ std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const
     std::array<double, 2> first;
     for (const int s : {0, 1}) {
       first[s] = std::numeric_limits<double>::infinity();
-      for (const int other : beside[s]) first[s] = std::min(first[s], growth * std::max(length(other) / cells(other), kSmallest * size));
+      for (const int other : beside[s]) first[s] = std::min(first[s], growth * std::max(length(other) / cells(other), (local ? kThinnest : kSmallest) * size));
     }
     // Cells that grow from both ends until the layer is full.
     double low = first[0], high = first[1], covered = 0;

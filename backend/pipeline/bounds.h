@@ -17,9 +17,10 @@ std::vector<DistanceConstraint> part_bounds(const CadModel& model, const TetMesh
                                             const EdgeLevels& levels = {});
 
 /// More bounds, by what the integers give: cells of a block that grow from smaller ones beside it by `growth` at most, and none longer than 10 times its width.
-/// Cells far thinner than `size` (units of the map) count as no thinner than a share of it. Empty where the bounds hold.
+/// Cells far thinner than `size` (units of the map) count as no thinner than a share of it; a smaller share where places are refined locally (`local`): the
+/// cells there are divided again, and have to be as small across as along. Empty where the bounds hold.
 std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const BlockComplex& blocks, const std::vector<int>& value, double growth,
-                                                 double size);
+                                                 double size, bool local = false);
 
 /// Names of the constraints that the integers just meet and that ask for more than `scale` (cells per unit of the map) would give, each once.
 std::vector<std::string> deciding(const std::vector<DistanceConstraint>& constraints, const PolycuboidMap& map, const std::vector<int>& value, double scale);

@@ -114,6 +114,8 @@ LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, c
   check_levels(padded.mesh, padded.association, plan.everywhere);
   LocallyRefined result{padded, {}, std::vector<int>(padded.mesh.hexes.size()), {}};
   std::iota(result.parent.begin(), result.parent.end(), 0);
+  FitOptions keeping = options;
+  keeping.keep_sizes = true;
   for (int level = 1; level <= most_levels(plan); ++level) {
     const std::size_t before = result.padded.mesh.hexes.size();
     const RefineRegion region = region_of(result.padded.mesh, result.padded.association, plan, level);
@@ -127,7 +129,7 @@ LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, c
     result.padded.association = std::move(refined.association);
     for (int& parent : refined.parent) parent = result.parent[parent];
     result.parent = std::move(refined.parent);
-    result.fitted = fit(model, result.padded.mesh, result.padded.association, options, monitor);
+    result.fitted = fit(model, result.padded.mesh, result.padded.association, keeping, monitor);
     monitor.log("refine: level " + std::to_string(level) + ", " + std::to_string(before) + " cells to " + std::to_string(result.padded.mesh.hexes.size()) +
                 ", min SJ " + std::to_string(result.fitted.min_scaled_jacobian) + ", mean " + std::to_string(result.fitted.mean_scaled_jacobian) + ", " +
                 std::to_string(result.fitted.inverted) + " inverted");

@@ -400,7 +400,7 @@ class Evaluator::Work {
     add(bounds);
     Quantization result = quantize(s.blocks, s.map, asked, monitor_);
     for (int round = 0; round < kNeighbourRounds && growing && !options_.coarsest; ++round) {
-      const std::vector<DistanceConstraint> more = neighbour_bounds(s.map, s.blocks, result.value, options_.growth, 1 / scale);
+      const std::vector<DistanceConstraint> more = neighbour_bounds(s.map, s.blocks, result.value, options_.growth, 1 / scale, !levels_.empty());
       if (more.empty()) break;
       add(more);
       bounds.insert(bounds.end(), more.begin(), more.end());

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "core/quality.h"
 #include "fem/fem.h"
 #include "pipeline/part_mesh.h"
@@ -51,14 +52,38 @@ void expect_on_cad(const CadModel& model, const MeshResult& result) {
   }
 }
 
+/// Mean length of the mesh edges that leave a CAD face.
+double depth_at(const MeshResult& result, int face) {
+  std::vector<char> on(result.mesh.points.size(), 0);
+  for (std::size_t q = 0; q < result.association.quads.size(); ++q) {
+    if (result.association.patches[result.association.quad_patch[q]].front() != face) continue;
+    for (const int n : result.association.quads[q]) on[n] = 1;
+  }
+  double sum = 0;
+  int count = 0;
+  for (const Hex& hex : result.mesh.hexes) {
+    for (const auto& [c, d] : kHexEdges) {
+      if (on[hex[c]] == on[hex[d]]) continue;
+      sum += (result.mesh.points[hex[c]] - result.mesh.points[hex[d]]).norm();
+      ++count;
+    }
+  }
+  return sum / count;
+}
+
 // A hole of a fiftieth of the plate's width, 24 elements round it.
 TEST(LocalRefinement, SmallHoleInAPlate) {
   const CadModel model = CadModel::from_brep(shapes::plate_with_hole(100, 100, 10, 1));
   const int bore = face_of(model, SurfaceKind::kCylinder);
   MeshOptions options = options_of(("Face" + std::to_string(bore) + "=1").c_str());
   options.per_circle = 8;
-  const MeshResult result = mesh(model, options, Monitor());
+  Session session(model, options);
+  const MeshResult result = session.mesh(options, Monitor());
   EXPECT_LE(result.mesh.hexes.size(), 3000u);
+  // Cells that are divided stay as small as that, also beside larger ones.
+  MeshOptions plain = options;
+  plain.refine.clear();
+  EXPECT_LT(depth_at(result, bore), 0.5 * depth_at(session.mesh(plain, Monitor()), bore));
   EXPECT_GE(result.report.quality.min_scaled_jacobian, 0.25);
   EXPECT_THAT(result.association.lost_edges, IsEmpty());
   EXPECT_THAT(check(result.mesh, result.association), IsEmpty());

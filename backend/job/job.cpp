@@ -150,6 +150,7 @@ void save_labels(const std::string& folder, const LabelledPart& part, int face_c
   arrays.add_rows("triangles", part.tets.triangles, 3);
   arrays.add("triangle_face", part.tets.triangle_face);
   arrays.add("label", part.labelling.label);
+  if (!part.map.image.empty()) arrays.add_rows("image", part.map.image, 3);
   const Mat3& frame = part.labelling.frame;
   arrays.add_rows("frame", std::vector<Vec3>{frame.row(0), frame.row(1), frame.row(2)}, 3);
   arrays.add("chart", inspection.chart);
@@ -209,18 +210,33 @@ int attempt(const std::string& folder, const std::function<void()>& do_work) {
   }
 }
 
-/// Meshes one after the other, as lines on standard input ask for them, until it ends. The first has the shape read and brings the session's first options.
+/// What a line of a session asks for, in `folder`.
+void serve_request(Session& session, const std::string& kind, const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
+  if (kind == "count") {
+    const HexCount count = session.count(options, monitor);
+    return write_text(folder + "/count.json", dump({{"hexes", {count.least, count.most}}}) + "\n");
+  }
+  if (kind == "polycube") return save_labels(folder, session.labels(options, monitor, Until::kMap), session.model().face_count());
+  if (job_kind(kind) == JobKind::kLabels) return save_labels(folder, session.labels(options, monitor), session.model().face_count());
+  save_mesh(folder, mesh_part(session, options, monitor));
+}
+
+/// Does one request after the other, as lines on standard input ask for them, until it ends. The first has the shape read and brings the session's first
+/// options.
 void serve_session(const std::string& folder) {
   std::unique_ptr<Session> session;
   for (std::string line; std::getline(std::cin, line);) {
-    const std::string own = folder + "/" + line;
+    std::istringstream words(line);
+    std::string name, kind = "mesh";
+    words >> name >> kind;
+    const std::string own = folder + "/" + name;
     const int status = attempt(own, [&] {
       const MeshOptions options = options_from_json(read_text(own + "/options.json"));
       Monitor monitor;
       const Voice voice(monitor, own);
       limit_time(monitor, options);
       if (!session) session = std::make_unique<Session>(read_shape<CadModel>(folder, options, monitor), options);
-      save_mesh(own, mesh_part(*session, options, monitor));
+      serve_request(*session, kind, own, options, monitor);
     });
     std::printf("%s\n", dump({{"done", status}}).c_str());
     std::fflush(stdout);

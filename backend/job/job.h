@@ -17,7 +17,8 @@ JobKind job_kind(const std::string& name);
 /// line:
 /// {"progress": [stage, fraction]} or {"log": line}. The process gets a group of its own, so that one kill reaches what it starts, and ends
 /// the work when its parent is gone. A session reads lines from standard input, each the name of a folder inside `folder` with options.json, makes that mesh
-/// there with what the meshes before it made, and says {"done": status}. Throws what cannot be left in the folder.
+/// there with what the meshes before it made (after the name may stand what else is wanted: labels, polycube or count), and says {"done": status}. Throws what
+/// cannot be left in the folder.
 int serve_job(const std::string& folder, JobKind kind);
 
 /// Options from a JSON object of names and values: numbers, truth values and text, labels as {"Face3": "+X"}, sizes and divisions likewise,

@@ -68,13 +68,17 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
     }
     book("deform");
   }
+  put_back(pose, part);
+  return part;
+}
+
+void put_back(const Pose& pose, LabelledPart& part) {
   for (Vec3& p : part.tets.points) p = pose.back(p);
   part.labelling.frame = pose.user_axes(part.labelling.frame);
   for (int& l : part.labelling.label) l = pose.user_label(l);
   for (FeatureChart& f : part.features.charts) pose.map_back(f.chart);
   for (Vec3& p : part.map.image) p = pose.map_back(p);
   for (Chart& c : part.map.charts) pose.map_back(c);
-  return part;
 }
 
 }  // namespace polycube

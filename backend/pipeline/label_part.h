@@ -10,6 +10,7 @@
 #include "core/report.h"
 #include "label/features.h"
 #include "label/label.h"
+#include "pipeline/pose.h"
 
 namespace polycube {
 
@@ -30,5 +31,8 @@ enum class Until { kLabels, kMap };
 /// them. `until` kLabels leaves the map out, which takes most of the time. All in the part's own place and the
 /// user's axes.
 LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor, Until until = Until::kMap);
+
+/// From the pose to the part's own place and the user's axes.
+void put_back(const Pose& pose, LabelledPart& part);
 
 }  // namespace polycube

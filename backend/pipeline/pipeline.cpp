@@ -92,15 +92,23 @@ void warn_of(const std::vector<std::string>& lines, const std::string& what, std
 
 }  // namespace
 
-/// The part in its pose, and its structures; they report to `monitor`, which follows that of each call.
-struct Session::Prepared {
-  Prepared(const CadModel& model, const MeshOptions& given)
-      : key(structural(given)), pose(canonical_pose(model, given.frame)), options(pose.posed(given)), structures(pose, options, clock, monitor) {}
-  MeshOptions key;
+/// The part in its pose, and its tets; they report to `monitor`, which follows that of each call.
+struct Session::Posed {
+  Posed(const CadModel& model, const MeshOptions& given)
+      : frame(given.frame), pose(canonical_pose(model, frame)), tets(pose.model, wanted_size(pose.posed(given), pose.model), clock, monitor) {}
+  FrameAxes frame;
   Pose pose;
-  MeshOptions options;  // of the pose
   Monitor monitor;
   StageClock clock{monitor};
+  TetMeshes tets;
+};
+
+/// Its structures.
+struct Session::Prepared {
+  Prepared(Posed& posed, const MeshOptions& given)
+      : key(structural(given)), options(posed.pose.posed(given)), structures(posed.pose, options, posed.tets, posed.clock, posed.monitor) {}
+  MeshOptions key;
+  MeshOptions options;  // of the pose
   Structures structures;
 };
 
@@ -108,8 +116,15 @@ Session::Session(CadModel model, const MeshOptions& options) : model_(std::move(
 
 Session::~Session() = default;
 
-Session::Prepared& Session::prepared(const MeshOptions& options) {
-  if (prepared_ && prepared_->key == structural(options)) return *prepared_;
+Session::Prepared& Session::prepared(const MeshOptions& options, const Monitor& monitor) {
+  const auto follow = [&] {
+    posed_->monitor.follow(monitor);
+    posed_->clock.restart();
+  };
+  if (prepared_ && prepared_->key == structural(options)) {
+    follow();
+    return *prepared_;
+  }
   MeshOptions made = options;  // of the size that was given first
   made.size = first_.size;
   made.max_size = first_.max_size;
@@ -117,13 +132,14 @@ Session::Prepared& Session::prepared(const MeshOptions& options) {
   made.coarsest = first_.coarsest;
   made.threads = first_.threads;
   prepared_.reset();
-  prepared_ = std::make_unique<Prepared>(model_, made);
+  if (!posed_ || posed_->frame != made.frame) posed_ = std::make_unique<Posed>(model_, made);
+  follow();
+  prepared_ = std::make_unique<Prepared>(*posed_, made);
   return *prepared_;
 }
 
 void Session::prepare(const Monitor& monitor) {
-  Prepared& p = prepared(first_);
-  p.monitor.follow(monitor);
+  Prepared& p = prepared(first_, monitor);
   try {
     p.structures.structure({.labels = p.structures.label_order().front()});
   } catch (const StageFailed& e) {
@@ -133,14 +149,12 @@ void Session::prepare(const Monitor& monitor) {
 
 MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
   const MeshOptions options = checked(model_, given);
-  Prepared& p = prepared(options);
-  p.monitor.follow(monitor);
-  p.clock.restart();
-  const Pose& pose = p.pose;
+  Prepared& p = prepared(options, monitor);
+  const Pose& pose = posed_->pose;
   const MeshOptions posed = pose.posed(options);
   MeshResult result = [&] {
     try {
-      return search_mesh(pose, posed, p.structures, p.clock, p.monitor, monitor);
+      return search_mesh(pose, posed, p.structures, posed_->clock, posed_->monitor, monitor);
     } catch (const StageFailed& e) {
       throw with_labels(e, options.labels);
     }
@@ -167,6 +181,44 @@ MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
   warn_of(short_of.coarse_circles, "CAD edges with fewer elements along them than their turning asks for", r.warnings);
   r.loose_nodes = count_loose_nodes(model_, result.association, result.mesh.points);
   return result;
+}
+
+LabelledPart Session::labels(const MeshOptions& given, const Monitor& monitor, Until until) {
+  check(given, model_.diagonal(), model_.faces(), model_.edges());
+  Prepared& p = prepared(without_solids(given), monitor);
+  const Labelled& labelled = p.structures.labelled();
+  LabelledPart part;
+  part.tets = labelled.mesh;
+  part.labelling = labelled.labelling;
+  part.label_report = labelled.report;
+  if (until == Until::kMap) {
+    const Structure& structure = p.structures.structure({.labels = labelled.variant});
+    part.features = structure.features;
+    part.map = structure.map;
+    part.flipped = structure.flipped;
+  } else {
+    part.features = find_features(posed_->pose.model, part.tets, part.labelling, p.structures.left_out({}), monitor);
+  }
+  part.stages = posed_->clock.records();
+  put_back(posed_->pose, part);
+  return part;
+}
+
+HexCount Session::count(const MeshOptions& given, const Monitor& monitor) {
+  const MeshOptions options = checked(model_, given);
+  Prepared& p = prepared(options, monitor);
+  const MeshOptions posed = posed_->pose.posed(options);
+  Evaluator evaluator(posed_->pose, posed, p.structures, posed_->clock, posed_->monitor);
+  std::optional<StageFailed> failure;
+  for (const Plan& plan : keeping_plans(posed, evaluator.label_order())) {
+    if (plan.for_poor) continue;
+    try {
+      return evaluator.count(plan);
+    } catch (const StageFailed& e) {
+      if (!failure) failure = e;
+    }
+  }
+  throw StageFailed(*failure);
 }
 
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor) { return Session(model, options).mesh(options, monitor); }

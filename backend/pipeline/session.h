@@ -3,13 +3,15 @@
 
 #include <memory>
 
+#include "pipeline/label_part.h"
 #include "pipeline/pipeline.h"
 
 namespace polycube {
 
 /// Keeps tetrahedra, labels, maps and blocks from one mesh to the next. They are those of the options given first (a size or a number of hexahedra there bounds
 /// the size of the tetrahedra), and made anew when an option changes that they depend on: labels, frame, feature_angle, keep_faces, fidelity, compactness, a
-/// size along an axis. A mesh depends on what was given first and on its own options, not on the meshes in between. Not for several threads at once.
+/// size along an axis; of these only the frame takes other tetrahedra. A mesh depends on what was given first and on its own options, not on the meshes in
+/// between. Not for several threads at once.
 class Session {
  public:
   /// Throws InvalidInput: options against this part.
@@ -22,14 +24,22 @@ class Session {
   void prepare(const Monitor& monitor);
   /// As mesh(model, options, monitor).
   MeshResult mesh(const MeshOptions& options, const Monitor& monitor);
+  /// As label_part(), on the tetrahedra that there are; the map, where it is asked for, is the one that mesh() takes for these labels.
+  LabelledPart labels(const MeshOptions& options, const Monitor& monitor, Until until = Until::kLabels);
+  /// How many hexahedra mesh() would make, without fitting them, which takes most of the time: those of the first plan that comes to a grid, with what padding
+  /// adds. Where no fit makes a valid mesh of it, mesh() goes on to other plans. Throws as mesh().
+  HexCount count(const MeshOptions& options, const Monitor& monitor);
   const CadModel& model() const { return model_; }
 
  private:
+  struct Posed;
   struct Prepared;
-  Prepared& prepared(const MeshOptions& options);
+  /// Follows the monitor; seconds of stages count from here.
+  Prepared& prepared(const MeshOptions& options, const Monitor& monitor);
 
   CadModel model_;
   MeshOptions first_;
+  std::unique_ptr<Posed> posed_;
   std::unique_ptr<Prepared> prepared_;
 };
 

@@ -50,35 +50,39 @@ LabelOptions label_options(const MeshOptions& options) {
   return result;
 }
 
-Structures::Structures(const Pose& pose, const MeshOptions& options, StageClock& clock, const Monitor& monitor)
-    : pose_(pose),
-      model_(pose.model),
-      options_(options),
-      size_(wanted_size(options, pose.model)),
-      ignored_(smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
-      clock_(clock),
-      monitor_(monitor) {}
+TetMeshes::TetMeshes(const CadModel& model, double size, StageClock& clock, const Monitor& monitor)
+    : model_(model), size_(size), clock_(clock), monitor_(monitor) {}
 
-const TetMesh& Structures::tets(double factor) {
-  const auto found = tets_.find(factor);
-  if (found == tets_.end()) {
-    Tets made;
+const TetMesh& TetMeshes::mesh(double factor) {
+  const auto found = made_.find(factor);
+  if (found == made_.end()) {
+    Made made;
     try {
       made.mesh = clock_.stage("tet", [&] { return tetrahedralise(model_, tet_options(size_, model_.diagonal(), factor), monitor_); });
     } catch (const StageFailed& e) {
       made.failure = e;
     }
-    tets_.emplace(factor, std::move(made));
+    made_.emplace(factor, std::move(made));
   }
-  const Tets& kept = tets_.at(factor);
-  if (kept.failure) throw *kept.failure;
+  const Made& kept = made_.at(factor);
+  if (kept.failure) throw StageFailed(*kept.failure);
   return kept.mesh;
 }
+
+Structures::Structures(const Pose& pose, const MeshOptions& options, TetMeshes& tets, StageClock& clock, const Monitor& monitor)
+    : pose_(pose),
+      model_(pose.model),
+      options_(options),
+      size_(wanted_size(options, pose.model)),
+      ignored_(smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
+      tets_(tets),
+      clock_(clock),
+      monitor_(monitor) {}
 
 LabelChoice& Structures::labellings(double tet_size) {
   const auto found = labellings_.find(tet_size);
   if (found != labellings_.end()) return found->second;
-  const TetMesh& mesh = tets(tet_size);
+  const TetMesh& mesh = tets_.mesh(tet_size);
   pose_.check_labels(mesh, options_.labels);
   return labellings_.try_emplace(tet_size, model_, mesh, label_options(options_), pose_.frames(options_), ignored_, monitor_).first->second;
 }
@@ -93,6 +97,11 @@ std::vector<LabelVariant> Structures::label_order() {
   }
   if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
   return order;
+}
+
+const Labelled& Structures::labelled() {
+  LabelChoice& choice = labellings(1);
+  return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(choice.order().front()); });
 }
 
 // Those that are as good as the first in all that can be said without a map.

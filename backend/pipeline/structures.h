@@ -48,17 +48,40 @@ struct Structure {
   double distortion = 0;  ///< DeformReport's
 };
 
+/// The tet meshes of one part, each made when it is first asked for. They know nothing of labels.
+class TetMeshes {
+ public:
+  /// `size`: of the hexahedra in mm. Keeps references to the others.
+  TetMeshes(const CadModel& model, double size, StageClock& clock, const Monitor& monitor);
+
+  /// `factor` on the size of the tets. Throws StageFailed, the same whenever asked.
+  const TetMesh& mesh(double factor);
+
+ private:
+  struct Made {
+    TetMesh mesh;
+    std::optional<StageFailed> failure;
+  };
+  const CadModel& model_;
+  double size_;
+  StageClock& clock_;
+  const Monitor& monitor_;
+  std::map<double, Made> made_;
+};
+
 /// The structures of one part, each made when it is first asked for.
 class Structures {
  public:
-  /// Keeps references to pose, options (of the pose), clock and monitor. A run of them that was cancelled leaves them as they were.
-  Structures(const Pose& pose, const MeshOptions& options, StageClock& clock, const Monitor& monitor);
+  /// Keeps references to all of them; options are those of the pose, tets those of its model. A run that was cancelled leaves them as they were.
+  Structures(const Pose& pose, const MeshOptions& options, TetMeshes& tets, StageClock& clock, const Monitor& monitor);
 
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
   /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps. As
   /// they come where there is no tet mesh to judge them on.
   std::vector<LabelVariant> label_order();
+  /// The first of LabelChoice's order, whatever its map. Throws StageFailed where there is no tet mesh.
+  const Labelled& labelled();
   /// Invalid labels, where others are valid, take long to map and seldom have a map.
   bool doubtful(const StructurePlan& plan);
   /// Whether one made before has the same labels and features.
@@ -67,11 +90,6 @@ class Structures {
   std::vector<char> left_out(const StructurePlan& plan) const;
 
  private:
-  struct Tets {
-    TetMesh mesh;
-    std::optional<StageFailed> failure;
-  };
-  const TetMesh& tets(double factor);
   LabelChoice& labellings(double tet_size);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
@@ -83,9 +101,9 @@ class Structures {
   const MeshOptions& options_;
   double size_;
   std::vector<char> ignored_;
+  TetMeshes& tets_;
   StageClock& clock_;
   const Monitor& monitor_;
-  std::map<double, Tets> tets_;  // by factor on their size
   std::map<double, LabelChoice> labellings_;
   std::map<StructurePlan, Structure> structures_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features made

@@ -37,6 +37,22 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
 
 /// A part that is meshed several times. What is given to mesh() comes before what was given at first.
 class PartSession {
+  /// Does the work with the options of all, released and with the callbacks' monitor.
+  template <class Work>
+  auto at_work(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more, const Work& work) {
+    py::kwargs all(given_.attr("copy")());
+    const auto names_size = [](const py::dict& d) { return d.contains("size") || d.contains("hexes") || d.contains("coarsest"); };
+    if (names_size(more)) {
+      for (const char* name : {"size", "hexes", "coarsest"}) all.attr("pop")(name, py::none());
+    }
+    all.attr("update")(more);
+    const MeshOptions options = options_from(all);
+    Callbacks callbacks(progress, log, cancel);
+    const std::unique_lock lock(at_work_, std::try_to_lock);
+    if (!lock.owns_lock()) throw InvalidInput("the session is at work in another thread");
+    return run_released(callbacks, options, [&] { return work(options, callbacks.monitor); });
+  }
+
  public:
   PartSession(CadModel model, py::kwargs given) : session_(std::move(model), options_from(given)), given_(std::move(given)) {}
 
@@ -49,17 +65,14 @@ class PartSession {
   }
 
   Mesh mesh(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
-    py::kwargs all(given_.attr("copy")());
-    const auto names_size = [](const py::dict& d) { return d.contains("size") || d.contains("hexes") || d.contains("coarsest"); };
-    if (names_size(more)) {
-      for (const char* name : {"size", "hexes", "coarsest"}) all.attr("pop")(name, py::none());
-    }
-    all.attr("update")(more);
-    const MeshOptions options = options_from(all);
-    Callbacks callbacks(progress, log, cancel);
-    const std::unique_lock lock(at_work_, std::try_to_lock);
-    if (!lock.owns_lock()) throw InvalidInput("the session is at work in another thread");
-    return run_released(callbacks, options, [&] { return mesh_part(session_, options, callbacks.monitor); });
+    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) { return mesh_part(session_, options, monitor); });
+  }
+
+  std::pair<int, int> count(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
+    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) {
+      const HexCount found = session_.count(options, monitor);
+      return std::pair(found.least, found.most);
+    });
   }
 
  private:
@@ -114,7 +127,9 @@ void bind_mesh(py::module_& module) {
           "Writes .inp, .unv, .vtu, .med or .mesh by suffix; element_type (.inp only) overrides the option.");
   py::class_<PartSession>(module, "Session", "A part that is meshed several times; what does not depend on counts and sizes is made once.")
       .def("mesh", &PartSession::mesh, py::kw_only(), py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-           "As mesh(), by the options given to prepare() and these, which come first.");
+           "As mesh(), by the options given to prepare() and these, which come first.")
+      .def("count", &PartSession::count, py::kw_only(), py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+           "How many hexahedra mesh() would make of these options, at least and at most, without fitting them.");
   module.def("prepare", &prepare, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "A Session of one CAD solid, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");

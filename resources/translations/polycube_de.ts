@@ -28,6 +28,14 @@
       <translation>Färbt jede Fläche nach ihrer Achse; ein Klick auf eine Fläche gibt ihr eine andere</translation>
     </message>
     <message>
+      <source>Polycube beside the part</source>
+      <translation>Polycube neben dem Teil</translation>
+    </message>
+    <message>
+      <source>Draws what the axes straighten the part into; it takes some seconds more</source>
+      <translation>Zeichnet, wozu die Achsen das Teil gerade richten; das dauert einige Sekunden länger</translation>
+    </message>
+    <message>
       <source>Axes set by hand</source>
       <translation>Von Hand gesetzte Achsen</translation>
     </message>
@@ -80,6 +88,14 @@
       <translation>Löst die aktive Analyse mit jeder Last auf ihren Hexaedern, mit Elementen C3D20R (erste Ordnung: C3D8I), und lädt die Ergebnisse</translation>
     </message>
     <message>
+      <source>Guide to hexahedral meshes</source>
+      <translation>Anleitung zu Hexaedernetzen</translation>
+    </message>
+    <message>
+      <source>From a first mesh to stresses, with pictures: refinement, what to do when a part is refused, limits</source>
+      <translation>Vom ersten Netz bis zu Spannungen, mit Bildern: Verfeinerung, was zu tun ist, wenn ein Teil abgelehnt wird, Grenzen</translation>
+    </message>
+    <message>
       <source>Element size</source>
       <translation>Elementgröße</translation>
     </message>
@@ -122,6 +138,10 @@
     <message>
       <source>From {} to {}{}.</source>
       <translation>Von {} bis {}{}.</translation>
+    </message>
+    <message>
+      <source>Polycube: guide</source>
+      <translation>Polycube: Anleitung</translation>
     </message>
     <message>
       <source>{} cells with {} {} to {}. A click shows them alone.</source>
@@ -292,6 +312,14 @@
       <translation>Färbt das Netz wie die Balken: Blau ist gut, Rot ist schlecht</translation>
     </message>
     <message>
+      <source>Blocks in colours</source>
+      <translation>Blöcke in Farben</translation>
+    </message>
+    <message>
+      <source>Paints each block of the polycube that the cells divide; a cut shows those inside</source>
+      <translation>Malt jeden Block des Polycubes an, den die Zellen teilen; ein Schnitt zeigt die im Inneren</translation>
+    </message>
+    <message>
       <source>Worse than</source>
       <translation>Schlechter als</translation>
     </message>
@@ -436,6 +464,10 @@
       <translation>Protokoll des Vernetzers</translation>
     </message>
     <message>
+      <source>{} of about {:.0f} s</source>
+      <translation>{} von etwa {:.0f} s</translation>
+    </message>
+    <message>
       <source>Layout {}: {}</source>
       <translation>Aufteilung {}: {}</translation>
     </message>
@@ -450,6 +482,38 @@
     <message>
       <source>Best so far: valid, {}, worst cell {:.2f}</source>
       <translation>Bestes bisher: gültig, {}, schlechteste Zelle {:.2f}</translation>
+    </message>
+    <message>
+      <source>Count cells</source>
+      <translation>Zellen zählen</translation>
+    </message>
+    <message>
+      <source>Finds axes of faces and blocks, but makes no mesh, and says how many cells there will be</source>
+      <translation>Sucht Achsen der Flächen und Blöcke, macht aber kein Netz, und sagt, wie viele Zellen es werden</translation>
+    </message>
+    <message>
+      <source>0 is automatic: near to {}</source>
+      <translation>0 ist automatisch: etwa {}</translation>
+    </message>
+    <message>
+      <source>about {} cells</source>
+      <translation>etwa {} Zellen</translation>
+    </message>
+    <message>
+      <source>up to {}, {} without local sizes</source>
+      <translation>bis zu {}, {} ohne lokale Größen</translation>
+    </message>
+    <message>
+      <source>Counting ...</source>
+      <translation>Zählt ...</translation>
+    </message>
+    <message>
+      <source>{} cells with these axes and sizes</source>
+      <translation>{} Zellen mit diesen Achsen und Größen</translation>
+    </message>
+    <message>
+      <source>{} to {}</source>
+      <translation>{} bis {}</translation>
     </message>
     <message>
       <source>Hexahedral mesh</source>
@@ -528,6 +592,22 @@
       <translation>Abgelehnt: {}.</translation>
     </message>
     <message>
+      <source>A finer size</source>
+      <translation>Feinere Größe</translation>
+    </message>
+    <message>
+      <source>Other axes of faces</source>
+      <translation>Andere Achsen der Flächen</translation>
+    </message>
+    <message>
+      <source>More effort</source>
+      <translation>Mehr Aufwand</translation>
+    </message>
+    <message>
+      <source>Smooth edges given up</source>
+      <translation>Glatte Kanten aufgeben</translation>
+    </message>
+    <message>
       <source>the part is gone</source>
       <translation>das Bauteil ist weg</translation>
     </message>
@@ -546,18 +626,6 @@
     <message>
       <source>Taking the mesh</source>
       <translation>Netz übernehmen</translation>
-    </message>
-    <message>
-      <source>0 is automatic: near to {}</source>
-      <translation>0 ist automatisch: etwa {}</translation>
-    </message>
-    <message>
-      <source>about {} cells</source>
-      <translation>etwa {} Zellen</translation>
-    </message>
-    <message>
-      <source>up to {}, {} without local sizes</source>
-      <translation>bis zu {}, {} ohne lokale Größen</translation>
     </message>
     <message>
       <source>Cancel</source>

@@ -45,6 +45,24 @@ class Sessions(unittest.TestCase):
         self.assertGreater(len(self.session.mesh(log=lines.append).hexes), 0)
         self.assertTrue(lines)
 
+    def test_labels_and_counts_share_the_tetrahedra(self):
+        first = self.session.labels()
+        plane = next(face for face in first.face_label if len(first.possible(face)) == 1)
+        self.assertTrue(first.valid)
+        lines, seen = [], []
+        given = self.session.labels(labels={plane: "+X -X +Y -Y +Z -Z".split()[first.face_label[plane]]}, log=lines.append, progress=lambda *step: seen.append(step))
+        self.assertNotIn("tet", {stage for stage, _ in seen})
+        np.testing.assert_array_equal(given.points, first.points)
+        seen.clear()
+        told = [self.session.count(progress=lambda *step: seen.append(step), size=size) for size in (4, 3)]
+        self.assertFalse({"tet", "fit"} & {stage for stage, _ in seen})
+        for size, (least, most) in zip((4, 3), told):
+            cells = len(self.session.mesh(size=size).hexes)
+            self.assertLess(least, 1.15 * cells)
+            self.assertGreater(most, 0.85 * cells)
+        with self.assertRaises(polycube.InvalidInput):
+            self.session.count(divisions={"Edge99": 3})
+
     def test_nothing_is_left(self):
         with self.session as session:
             session.mesh()

@@ -29,12 +29,13 @@ class First(GuiTest):
     def test_an_analysis_is_made_with_our_toolbar_alone(self):
         toolbar, menu = self.actions()
         self.assertEqual([action.text() for action in toolbar], [action.text() for action in menu])
-        self.assertEqual(len(toolbar), 8, [action.text() for action in toolbar])
-        _, analysis, *others, solve = toolbar
+        self.assertEqual(len(toolbar), 9, [action.text() for action in toolbar])
+        _, analysis, *others, solve, guide = toolbar
         process_events()
         self.assertFalse(solve.isEnabled())
         self.assertFalse(any(action.isEnabled() for action in others), "they need an analysis")
         self.assertTrue(analysis.isEnabled())
+        self.assertTrue(guide.isEnabled())
         analysis.trigger()
         process_events(0.5)
         self.assertTrue(any(obj.isDerivedFrom("Fem::FemAnalysis") for obj in self.document.Objects))

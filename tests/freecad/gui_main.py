@@ -1,4 +1,4 @@
-"""Runs one module of tests, POLYCUBE_GUI_MODULE, in a FreeCAD window and leaves the status in POLYCUBE_GUI_OUT/status."""
+"""Runs one module of tests, POLYCUBE_GUI_MODULE, or what else unittest finds by that name, in a FreeCAD window and leaves the status in POLYCUBE_GUI_OUT/status."""
 
 import importlib
 import os
@@ -10,8 +10,9 @@ import FreeCADGui
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 FreeCADGui.showMainWindow()
 
-module = importlib.import_module(os.environ["POLYCUBE_GUI_MODULE"])  # needs the window
-outcome = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(unittest.defaultTestLoader.loadTestsFromModule(module))
+name = os.environ["POLYCUBE_GUI_MODULE"]
+importlib.import_module(name.split(".")[0])  # needs the window
+outcome = unittest.TextTestRunner(stream=sys.stderr, verbosity=2).run(unittest.defaultTestLoader.loadTestsFromName(name))
 with open(os.path.join(os.environ["POLYCUBE_GUI_OUT"], "status"), "w", encoding="ascii") as file:
     file.write("0" if outcome.wasSuccessful() and outcome.testsRun else "1")
 sys.stderr.flush()

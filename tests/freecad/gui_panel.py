@@ -311,6 +311,15 @@ class RecordedMacro(PanelTest):
             lines = file.read()
         self.assertIn("polycube.create_fem_mesh(App.ActiveDocument.getObject('Block'), size=10.0)", lines)
         self.assertNotIn("Gui.runCommand('Polycube", lines)
+        (recorded,) = [obj for obj in self.document.Objects if objects.is_polycube(obj)]
+        document = FreeCAD.newDocument()
+        self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
+        box = document.addObject("Part::Box", "Block")
+        box.Length, box.Width, box.Height = 60, 40, 20
+        document.recompute()
+        exec(compile(lines, path, "exec"), {})
+        (made,) = [obj for obj in document.Objects if objects.is_polycube(obj)]
+        self.assertTrue(Macros.same(recorded, made), "bit for bit")
 
 
 class Analyses(PanelTest):

@@ -156,6 +156,27 @@ class Evaluator::Work {
     return counted(std::move(outcome));
   }
 
+  // As the mesh would come to it, with the number of cells that is asked for met likewise.
+  HexCount count(const Plan& plan) {
+    int best = 0;
+    HexCount result;
+    for (int round = 0; round <= kRecounts; ++round) {
+      Draft draft;
+      const Association association = gridded(plan, options_.divisions, draft);
+      const std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_); });
+      const auto cells = [](const PaddedMesh& m) { return static_cast<int>(m.mesh.hexes.size()); };
+      const int first = cells(choices.front());
+      const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
+      if (round > 0 && miss(first) >= miss(best)) break;
+      best = first;
+      result = {first, first};
+      for (const PaddedMesh& m : choices) result = {std::min(result.least, cells(m)), std::max(result.most, cells(m))};
+      if (options_.hexes <= 0 || miss(first) <= kPaddedMiss) break;
+      grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / first;
+    }
+    return result;
+  }
+
  private:
   Outcome counted(Outcome outcome) const {
     outcome.fits = fits_ - fits_left_;
@@ -219,8 +240,16 @@ class Evaluator::Work {
   }
 
   Draft fitted(const Plan& plan, const Divisions& divisions) {
+    Draft draft;
+    const Association association = gridded(plan, divisions, draft);
+    pad_and_fit(draft, association);
+    return draft;
+  }
+
+  // The draft becomes the plan's, up to its CAD edges on its grid.
+  Association gridded(const Plan& plan, const Divisions& divisions, Draft& draft) {
     levels_.clear();
-    Draft draft = on_grid(plan, false, divisions, may_refine_bores_ && plan.bounded && options_.hexes == 0);
+    draft = on_grid(plan, false, divisions, may_refine_bores_ && plan.bounded && options_.hexes == 0);
     Routed routes = routed(draft, draft.complex);
     if (!levels_.empty() && !saves_cells(draft, routes.association)) {
       levels_.clear();
@@ -238,8 +267,7 @@ class Evaluator::Work {
       }
     }
     round_out(draft, association, divisions);
-    pad_and_fit(draft, association);
-    return draft;
+    return association;
   }
 
   // CAD edges take other ways on the grid than their images do: those with too few mesh edges for their turning get more cells, as long as that helps.
@@ -526,6 +554,8 @@ Outcome Evaluator::evaluate(const Plan& plan, const Made* from, int fits) {
   if (!plan.bounded && work.repeats_grid(plan)) return skipped;
   return work.anew(plan);
 }
+
+HexCount Evaluator::count(const Plan& plan) { return Work(*this, 0).count(plan); }
 
 MeshResult Evaluator::result(const Outcome& outcome) const {
   const Draft& draft = draft_in(outcome);

@@ -55,6 +55,42 @@ TEST_F(Sessions, OtherLabelsAreAnotherMap) {
   EXPECT_TRUE(equal(first, session.mesh({}, Monitor())));
 }
 
+// Labels on the tets that are there: those that label_part() makes.
+TEST_F(Sessions, LabelsOnTheSameTets) {
+  Session session(plate_, {});
+  const LabelledPart first = session.labels({}, Monitor());
+  const LabelledPart alone = label_part(plate_, {}, Monitor(), Until::kLabels);
+  EXPECT_EQ(first.tets.points, alone.tets.points);
+  EXPECT_EQ(first.labelling.label, alone.labelling.label);
+  MeshOptions other;
+  const int plane = first.tets.triangle_face.front();
+  other.labels = {{plane, first.labelling.label.front()}};
+  const LabelledPart second = session.labels(other, Monitor());
+  for (const StageRecord& s : second.stages) EXPECT_NE(s.name, "tet");
+  EXPECT_EQ(second.labelling.label, label_part(plate_, other, Monitor(), Until::kLabels).labelling.label);
+  const LabelledPart mapped = session.labels({}, Monitor(), Until::kMap);
+  EXPECT_EQ(mapped.labelling.label, first.labelling.label);
+  EXPECT_EQ(mapped.map.image.size(), mapped.tets.points.size());
+  EXPECT_TRUE(equal(session.mesh({}, Monitor()), mesh(plate_, {}, Monitor())));
+}
+
+// What is told beforehand is what comes, where the first plan gives the mesh.
+TEST_F(Sessions, CountWithoutAFit) {
+  Session session(plate_, {});
+  MeshOptions divided = of_size(3), counted;
+  divided.divisions = {{1, {}, 7, 7}};
+  counted.hexes = 900;
+  for (const MeshOptions& options : {MeshOptions(), of_size(2), divided, counted}) {
+    const HexCount told = session.count(options, Monitor());
+    const int made = session.mesh(options, Monitor()).report.hexes;
+    EXPECT_LE(told.least, 1.15 * made);
+    EXPECT_GE(told.most, 0.85 * made);
+  }
+  MeshOptions wrong;
+  wrong.divisions = {{99, {}, 2, 2}};
+  EXPECT_THROW(session.count(wrong, Monitor()), InvalidInput);
+}
+
 // Stopped while the map is made, it is made again.
 TEST_F(Sessions, GoOnAfterACancel) {
   Session session(plate_, {});

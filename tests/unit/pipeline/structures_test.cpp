@@ -14,7 +14,8 @@ struct Part {
       : pose(canonical_pose(CadModel::from_brep(brep), given.frame)),
         options(sized(pose.posed(given), pose.model.diagonal() / 20)),
         clock(monitor),
-        structures(pose, options, clock, monitor) {}
+        tets(pose.model, options.size, clock, monitor),
+        structures(pose, options, tets, clock, monitor) {}
   static MeshOptions sized(MeshOptions options, double size) {
     options.size = size;
     return options;
@@ -23,6 +24,7 @@ struct Part {
   Pose pose;
   MeshOptions options;
   StageClock clock;
+  TetMeshes tets;
   Structures structures;
 };
 

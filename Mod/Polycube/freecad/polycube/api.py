@@ -39,7 +39,11 @@ def _recorded(call):
 
 
 def options():
-    """The mesher's options: list of dicts with name, unit, meaning, type, default, min, max, choices, advanced."""
+    """The mesher's options: list of dicts with name, unit, meaning, type, default, min, max, choices, advanced.
+
+    >>> [option["unit"] for option in polycube.options() if option["name"] == "size"]
+    ['mm']
+    """
     from . import option_table
 
     return option_table.table()
@@ -53,6 +57,12 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     order: 1 or 2. `more`: see options().
     progress(stage, fraction), log(line): called while the work runs. cancel(): asked every 0.1 s, true stops the work.
     Returns a MeshResult (arrays and report). Raises InvalidInput, StageFailed, Cancelled.
+
+    >>> result = polycube.mesh(part, size="20 mm", order=1)
+    >>> result.hexes.shape
+    (27, 8)
+    >>> sorted(result.groups)[:2]
+    ['Edge1', 'Edge10']
     """
     return _run("mesh", shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
 
@@ -60,7 +70,12 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
 def prepare(shape_or_object, **options):
     """A Session on one solid, for meshes that differ in counts, sizes, divisions or order: `session.mesh(size=3)` as mesh(), several times.
 
-    The first mesh makes tetrahedra, labels, map and blocks, those after it go on from there. The session is a process of its own; session.close(), or a with block, ends it.
+    The first mesh makes tetrahedra, labels, map and blocks, those after it go on from there; so do session.labels() and session.count(), the number of cells
+    that a mesh would have. The session is a process of its own; session.close(), or a with block, ends it.
+
+    >>> with polycube.prepare(part, order=1) as session:
+    ...     session.count(size=10), len(session.mesh(size=20).hexes)
+    ((72, 72), 27)
     """
     from .session import Session
 
@@ -73,6 +88,10 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
     """The labels that mesh() would start from, to look at: a LabelResult. Takes a second or two where the mesh takes minutes.
 
     Arguments and errors as for mesh(). `labels={"Face12": "+X"}` sets the axis of CAD faces, `frame=((1, 0, 0), (0, 1, 0))` the directions of X and Y.
+
+    >>> found = polycube.labels(part)
+    >>> found.valid, len(found.face_label)
+    (True, 6)
     """
     return _run("labels", shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
 
@@ -95,6 +114,10 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     Of a list of objects a Part::Compound is made, which is the mesh object's part then.
     The mesh object joins `analysis` if one is given. `only_object`: it has no cells yet, so that refine() can ask for something before update_fem_mesh().
     Raises like mesh(); the document is then unchanged.
+
+    >>> obj = polycube.create_fem_mesh(part, size=20, analysis=analysis)
+    >>> obj.Hexahedra, obj.MeshState
+    (12, 'Up to date')
     """
     from . import objects, option_table
 
@@ -128,7 +151,11 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 
 @_recorded
 def compound_of(parts):
-    """A new Part::Compound of document objects, which stands where they stand. Raises InvalidInput where no compound can."""
+    """A new Part::Compound of document objects, which stands where they stand. Raises InvalidInput where no compound can.
+
+    >>> len(polycube.compound_of([part, other]).Shape.Solids)
+    2
+    """
     document = parts[0].Document
     compound = document.addObject("Part::Compound", "MeshedParts")
     compound.Links = parts
@@ -143,6 +170,9 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     """Meshes again with the object's own shape and options, in one undo step. Raises like mesh(); the object is then unchanged.
 
     `more`: options that are to be others from now on; one that is given its default, as options() has it, goes back to that.
+
+    >>> polycube.update_fem_mesh(mesh, size=10).Hexahedra
+    48
     """
     from . import objects, option_table, refinements
 
@@ -160,7 +190,11 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
 
 @_recorded
 def set_options(obj, **more):
-    """Gives a mesh object other options, without meshing, in one undo step. An option that is given its default, as options() has it, goes back to that."""
+    """Gives a mesh object other options, without meshing, in one undo step. An option that is given its default, as options() has it, goes back to that.
+
+    >>> polycube.set_options(mesh, order=1).MeshState
+    'Out of date'
+    """
     from . import option_table
 
     _check_mesh(obj)
@@ -177,6 +211,10 @@ def refine(obj, kind, places, value=None):
     kind, places and value: "size", faces, a length; "divisions", edges, elements; "layers", two faces, elements; "bore", cylindrical faces, elements round
     each; "bias", edges, last element over first; "keep", faces none of whose edges is ignored; "axis", faces, an axis as "+X". Elements are 6, "3.." (at least), "..4", "2..5". Faces may be numbers.
     The next update_fem_mesh() obeys it. Raises InvalidInput.
+
+    >>> layers = polycube.refine(mesh, "layers", ["Face5", "Face6"], 5)
+    >>> polycube.update_fem_mesh(mesh).Hexahedra
+    30
     """
     from . import refinements
 
@@ -187,7 +225,12 @@ def refine(obj, kind, places, value=None):
 
 @_recorded
 def set_refinement(obj, value=None, suppressed=None):
-    """Changes what a refinement asks for, or whether the mesh does without it; in one undo step. Raises InvalidInput."""
+    """Changes what a refinement asks for, or whether the mesh does without it; in one undo step. Raises InvalidInput.
+
+    >>> layers = polycube.refine(mesh, "layers", ["Face5", "Face6"], 5)
+    >>> polycube.set_refinement(layers, "3..").Elements
+    '3..'
+    """
     from . import refinements
 
     if not refinements.is_refinement(obj):
@@ -202,7 +245,11 @@ def set_refinement(obj, value=None, suppressed=None):
 
 @_recorded
 def set_analysis(obj, analysis):
-    """Has the mesh object be the mesh of this analysis, in place of any other, or of none where it is None; in one undo step. Returns the mesh object."""
+    """Has the mesh object be the mesh of this analysis, in place of any other, or of none where it is None; in one undo step. Returns the mesh object.
+
+    >>> polycube.set_analysis(mesh, analysis) in analysis.Group
+    True
+    """
     from . import analyses
 
     _check_mesh(obj)
@@ -215,14 +262,24 @@ def set_analysis(obj, analysis):
 
 
 def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
-    """Solves an analysis by CalculiX, with all its loads, and loads the results into it: see solver.solve, which this is. Returns a Solution."""
+    """Solves an analysis by CalculiX, with all its loads, and loads the results into it: see solver.solve, which this is. Returns a Solution.
+
+    >>> solution = polycube.solve(loaded)
+    >>> max(solution.result.DisplacementLengths) > 0
+    True
+    """
     from . import solver as solving
 
     return solving.solve(analysis, element, solver, folder, log, cancel)
 
 
 def converge(analysis, sizes=3, quantity="max displacement", **more):
-    """The analysis on meshes finer and finer, and how far a result is from its limit: see convergence.converge, which this is. Returns a Convergence."""
+    """The analysis on meshes finer and finer, and how far a result is from its limit: see convergence.converge, which this is. Returns a Convergence.
+
+    >>> series = polycube.converge(loaded, sizes=[20, 15, 10])
+    >>> len(series.rows)
+    3
+    """
     from . import convergence
 
     return convergence.converge(analysis, sizes, quantity, **more)

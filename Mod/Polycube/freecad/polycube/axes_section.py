@@ -1,6 +1,7 @@
 """The panel's section "Axes of faces": which direction each face takes in the blocks of the mesh, shown on the part and changed by clicks."""
 
 import FreeCAD
+import FreeCADGui
 from PySide import QtGui
 
 from . import engine, label_view, shapes
@@ -20,8 +21,11 @@ class AxesSection(Section):
         self._automatic = {}  # labels of faces before they were set by hand, as far as is known
         self._is_old = False
         self._mesh_was_visible = False
+        self._fits = False  # whether the view is to take in what is drawn next
         self.preview = QtGui.QCheckBox(tr("Show on the part"))
         self.preview.setToolTip(tr("Paints each face by its axis; a click on a face gives it another one"))
+        self.beside = QtGui.QCheckBox(tr("Polycube beside the part"))
+        self.beside.setToolTip(tr("Draws what the axes straighten the part into; it takes some seconds more"))
         self.key = QtGui.QLabel(label_view.key())
         self.key.setWordWrap(True)
         self.key.setVisible(False)
@@ -36,11 +40,12 @@ class AxesSection(Section):
         row = QtGui.QHBoxLayout()
         row.addWidget(self.given)
         row.addWidget(self.automatic)
-        for widget in (self.preview, self.key):
+        for widget in (self.preview, self.beside, self.key):
             self.body.addWidget(widget)
         self.body.addLayout(row)
         self.body.addWidget(self.form)
         self.preview.toggled.connect(self._preview)
+        self.beside.toggled.connect(self._beside)
         self.automatic.clicked.connect(self._give_up)
 
     def set_labels(self, labels):
@@ -54,6 +59,7 @@ class AxesSection(Section):
     def _preview(self, wanted):
         self.key.setVisible(wanted)
         if not wanted:
+            self.beside.setChecked(False)
             self.end()
             return
         panel = self._panel
@@ -85,7 +91,15 @@ class AxesSection(Section):
         self._is_old = True
         if not self._panel.process:
             self._is_old = False
-            self._panel.start_labels()
+            self._panel.start_labels(self.beside.isChecked())
+
+    def _beside(self, wanted):
+        """With the polycube, or without it again. It is drawn where the labels are."""
+        self._fits = wanted
+        if wanted and not self.preview.isChecked():
+            self.preview.setChecked(True)
+        elif self.preview.isChecked():
+            self.update()
 
     def catch_up(self):
         """Something has ended: labels that are old are computed now."""
@@ -97,6 +111,9 @@ class AxesSection(Section):
         self.shown = labels
         if self.overlay:
             self.overlay.show(labels)
+            if self._fits and labels.image is not None:
+                self._fits = False
+                FreeCADGui.SendMsgToActiveView("ViewFit")
         lost = sum(fate == "lost" for fate, _ in labels.edges.values())
         line = tr("{} charts, {}, {} turning points, {} CAD edges not captured.").format(
             labels.chart.max() + 1, tr("valid") if labels.valid else tr("not valid"), len(labels.turning_points), lost

@@ -57,14 +57,14 @@ class Hidden:
             self._switch.whichChild = self._before
 
 
-def zoom(document, standing, points):
-    """Has the active view look at some points, with room around."""
+def zoom(document, standing, points, room=1.0):
+    """Has the active view look at some points, with room around: so many times their extent."""
     view = FreeCADGui.getDocument(document.Name).activeView()
     box = coin.SbBox3f()
     for point in points:
         box.extendBy(coin.SbVec3f(*standing.multVec(FreeCAD.Vector(*point))))
     centre = box.getCenter()
-    room = 1.5 * max(box.getSize())
+    reach = (0.5 + room) * max(box.getSize())
     for sign in (-1, 1):
-        box.extendBy(centre + coin.SbVec3f(sign * room, sign * room, sign * room))
+        box.extendBy(centre + coin.SbVec3f(sign * reach, sign * reach, sign * reach))
     view.getCameraNode().viewBoundingBox(box, 1.0, 1.0)

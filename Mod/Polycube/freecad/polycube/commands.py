@@ -102,6 +102,27 @@ class Solve:
             QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
 
 
+class Help:
+    """Opens the user guide."""
+
+    Name = "Polycube_Help"
+
+    def GetResources(self):
+        return {
+            "Pixmap": resources.icon("Polycube_Help"),
+            "MenuText": tr("Guide to hexahedral meshes"),
+            "ToolTip": tr("From a first mesh to stresses, with pictures: refinement, what to do when a part is refused, limits"),
+        }
+
+    def IsActive(self):
+        return True
+
+    def Activated(self):
+        from .help_page import HelpPage
+
+        HelpPage(FreeCADGui.getMainWindow()).show()
+
+
 def _give_mesh(analysis):
     """An analysis that was made after the mesh, and has none, gets it: the one mesh of ours that is in no analysis."""
     free = [obj for obj in analysis.Document.Objects if objects.is_polycube(obj) and objects.analysis_of(obj) is None]
@@ -113,6 +134,6 @@ def _give_mesh(analysis):
 def register():
     """Adds the commands that FreeCAD does not know yet."""
     known = FreeCADGui.listCommands()
-    for command in (MeshFromShape, Solve):
+    for command in (MeshFromShape, Solve, Help):
         if command.Name not in known:
             FreeCADGui.addCommand(command.Name, command())

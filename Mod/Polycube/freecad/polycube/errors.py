@@ -1,5 +1,7 @@
 """The ways a call can end without a mesh."""
 
+import difflib
+
 
 class PolycubeError(Exception):
     """Base of all errors raised on purpose; the message is one line."""
@@ -32,3 +34,9 @@ class Cancelled(PolycubeError, RuntimeError):
 
 class SolverFailed(PolycubeError, RuntimeError):
     """CalculiX ended without results; the message has its own words."""
+
+
+def did_you_mean(name, known, otherwise):
+    """The end of a message about a wrong name: the one that is near to it, or `otherwise` and all that there are."""
+    near = difflib.get_close_matches(str(name), known, 1)
+    return "; did you mean '{}'?".format(near[0]) if near else otherwise + ", ".join(known)

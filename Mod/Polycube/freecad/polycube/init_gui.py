@@ -30,7 +30,7 @@ class PolycubeWorkbench(FreeCADGui.Workbench):
         del FemGui, femcommands
         known = FreeCADGui.listCommands()
         fem = [next((name for name in names if name in known), None) for names in _FEM_COMMANDS]
-        names = [commands.MeshFromShape.Name, "Separator", *filter(None, fem), "Separator", commands.Solve.Name]
+        names = [commands.MeshFromShape.Name, "Separator", *filter(None, fem), "Separator", commands.Solve.Name, "Separator", commands.Help.Name]
         self.appendToolbar("Polycube", names)
         self.appendMenu("&Polycube", names)
 

@@ -25,6 +25,8 @@ _GRACE = 1.5
 # Seconds between two calls of `idle`: a window that is asked so often does not look stuck.
 _IDLE = 0.03
 _KINDS = {"InvalidInput": InvalidInput, "Cancelled": Cancelled}
+#: By what was asked for, what reads it from a folder.
+_LOADERS = {"mesh": result.load, "labels": result.load_labels, "polycube": result.load_labels, "count": result.load_count}
 
 
 class Job:
@@ -98,9 +100,9 @@ def write_options(folder, options):
 
 
 def outcome(folder, what, status, last_words="", stage=""):
-    """What a child left in a folder: the MeshResult or LabelResult, or one of the errors. `stage`: the last one that it spoke of."""
+    """What a child left in a folder: the MeshResult or LabelResult, the number of cells, or one of the errors. `stage`: the last one that it spoke of."""
     if status == 0:
-        return result.load_labels(folder) if what == "labels" else result.load(folder)
+        return _LOADERS[what](folder)
     path = os.path.join(folder, "error.json")
     if os.path.exists(path):
         with open(path, encoding="utf-8") as file:

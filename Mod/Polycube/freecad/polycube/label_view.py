@@ -10,6 +10,8 @@ from .overlay import Overlay, depth, plain
 #: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the view's depth. FreeCAD draws a round face within
 #: 0.5 % of the part's size, so the triangles of the labels are up to twice that behind it.
 _FACES_FORWARD, _LINES_FORWARD = 1e-2, 1.01e-2
+#: Between the part and the polycube beside it, in widths of the part.
+_GAP = 0.3
 
 
 def key():
@@ -22,10 +24,19 @@ class LabelOverlay(Overlay):
     """Coloured triangles over the part in the active 3D view."""
 
     def show(self, labels):
-        """Draws a LabelResult: charts in their labels' colours, borders of charts black, turning points red."""
+        """Draws a LabelResult: charts in their labels' colours, borders of charts black, turning points red; beside it the polycube, where there is one."""
+        drawn = [self._at(labels, labels.points)]
+        if labels.image is not None:
+            drawn.append(self._at(labels, beside(labels)))
+        self.draw(*drawn)
+
+    def _at(self, labels, places):
         points = coin.SoCoordinate3()
-        points.point.setValues(0, len(labels.points), labels.points.tolist())
-        self.draw(points, depth(_FACES_FORWARD), *self._faces(labels), depth(_LINES_FORWARD), *self._borders(labels))
+        points.point.setValues(0, len(places), places.tolist())
+        drawn = coin.SoSeparator()
+        for node in (points, depth(_FACES_FORWARD), *self._faces(labels), depth(_LINES_FORWARD), *self._borders(labels)):
+            drawn.addChild(node)
+        return drawn
 
     @staticmethod
     def _faces(labels):
@@ -60,6 +71,16 @@ class LabelOverlay(Overlay):
         turning.coordIndex.deleteValues(0)  # the default is one point
         turning.coordIndex.setValues(0, len(labels.turning_points), labels.turning_points.tolist())
         return (*plain((0.05, 0.05, 0.05)), style, lines, red, turning)
+
+
+def beside(labels):
+    """Places of the points in the polycube, turned as the part is and moved to its side along x. The engine's scale is the part's own."""
+    image = labels.image @ labels.frame
+    least, most = labels.points.min(axis=0), labels.points.max(axis=0)
+    middle = (image.min(axis=0) + image.max(axis=0)) / 2
+    moved = (least + most) / 2 - middle
+    moved[0] = most[0] + _GAP * (most[0] - least[0]) - image[:, 0].min()
+    return image + moved
 
 
 class FaceClicks:

@@ -7,6 +7,7 @@ import FreeCAD
 from . import compat, fem_mesh, load_sets, option_table, refinements, shapes
 from .compat import part_of, set_part
 from .errors import InvalidInput
+from .result import as_runs
 from .stateless import Stateless
 
 EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
@@ -20,6 +21,7 @@ _RESULTS = [
     ("App::PropertyFloat", "MeanScaledJacobian", "Polycube Result", "Mean quality of the cells"),
     ("App::PropertyVolume", "MeshVolume", "Polycube Result", "Volume of the mesh"),
     ("App::PropertyString", "Report", "Polycube Result", "The mesher's report, JSON"),
+    ("App::PropertyString", "Blocks", "Polycube Result", "Block of the polycube that each cell is part of, and how many after it: 3x5,7x2"),
     ("App::PropertyString", "MeshedOptions", "Polycube Result", "Options of the present mesh, JSON"),
     ("App::PropertyFloatList", "MeshedShape", "Polycube Result", "Signature of the shape of the present mesh"),
 ]
@@ -27,7 +29,7 @@ _RESULTS = [
 _ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
 #: property that documents do not have which are older than the bounds on counts
 _BOUND = "MeshSizeFromCurvature"
-_HIDDEN = ("Report", "MeshedOptions", "MeshedShape")
+_HIDDEN = ("Report", "Blocks", "MeshedOptions", "MeshedShape")
 
 
 def make(document, part, name="PolycubeMesh"):
@@ -85,6 +87,7 @@ def set_mesh(obj, result, options, meshed_shape, mesh=None, asked=None):
     obj.MeanScaledJacobian = quality["mean_scaled_jacobian"]
     obj.MeshVolume = result.report["volume"]["mesh"]
     obj.Report = json.dumps(result.report)
+    obj.Blocks = as_runs(result.hex_block.tolist())
     obj.MeshedOptions = json.dumps(asked, sort_keys=True) if asked is not None else _options_text(obj)
     obj.MeshState = state(obj)
     obj.purgeTouched()  # it is as it is to be; FreeCAD's mark would hide the icon of the state
@@ -161,7 +164,7 @@ class PolycubeMesh(Stateless):
     def onChanged(self, obj, name):
         if "Restore" in obj.State or not hasattr(obj, "MeshedShape"):
             return
-        if name in ("Part", "Shape", "Refinements") or name in map(option_table.property_name, option_table.document_options()):
+        if name in ("Part", "Shape", "Refinements") or name in option_table.property_names():
             self.execute(obj)
 
     def onDocumentRestored(self, obj):

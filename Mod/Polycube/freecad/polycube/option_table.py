@@ -1,7 +1,6 @@
 """Options as scripts give them and as FreeCAD properties, made from the engine's table."""
 
 import copy
-import difflib
 import math
 import re
 from numbers import Integral, Real
@@ -9,7 +8,7 @@ from numbers import Integral, Real
 import FreeCAD
 
 from . import engine
-from .errors import InvalidInput
+from .errors import InvalidInput, did_you_mean
 
 #: Names that FreeCAD users know from the Gmsh mesher.
 _FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder", "per_circle": "MeshSizeFromCurvature"}
@@ -42,6 +41,11 @@ def document_options():
     return [option for option in table() if option["name"] not in _NOT_IN_FREECAD]
 
 
+def property_names():
+    """Of all options that a mesh object has; in no time, for it is asked with every change of an object."""
+    return {property_name(option) for option in engine.description()["options"] if option["name"] not in _NOT_IN_FREECAD}
+
+
 def property_name(option):
     """FreeCAD's name of an option: time_limit is TimeLimit."""
     return _FAMILIAR.get(option["name"]) or "".join(word.capitalize() for word in option["name"].split("_"))
@@ -53,9 +57,7 @@ def plain(options):
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in known:
-            near = difflib.get_close_matches(name, known, 1)
-            meant = "; did you mean '{}'?".format(near[0]) if near else "; options are " + ", ".join(known)
-            raise InvalidInput("unknown option '{}'{}".format(name, meant))
+            raise InvalidInput("unknown option '{}'{}".format(name, did_you_mean(name, known, "; options are ")))
     return {name: _plain(known[name], value) for name, value in given.items()}
 
 

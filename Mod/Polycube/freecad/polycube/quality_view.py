@@ -4,6 +4,8 @@ from .measures import BARS, bar_of
 
 #: What FreeCAD paints for the scalars -1, -0.5, 0, 0.5 and 1, with straight lines between, if those given reach from -1 to 1.
 _SCALE = [(0, 0, 1), (0, 1, 1), (0, 1, 0), (1, 1, 0), (1, 0, 0)]
+#: The golden section of a turn: however many hues are taken one after the other, they stay apart.
+_TURN = (5**0.5 - 1) / 2
 #: The scalar of the best bar: at -1, pure blue, mesh edges can hardly be seen.
 _BEST = -0.7
 
@@ -17,6 +19,17 @@ def colour(bar):
     place = 2 * (_scalar(bar) + 1)
     below = min(int(place), len(_SCALE) - 2)
     return tuple(a + (place - below) * (b - a) for a, b in zip(_SCALE[below], _SCALE[below + 1]))
+
+
+def block_colours(blocks):
+    """(cells, 3), 0 to 1, of an array with the block of each cell: neighbours in number, as blocks beside each other often are, are far apart in hue."""
+    import colorsys
+
+    import numpy
+
+    numbers, which = numpy.unique(blocks, return_inverse=True)
+    palette = [colorsys.hsv_to_rgb(rank * _TURN % 1, (0.45, 0.7)[rank % 2], (0.95, 0.8)[rank // 2 % 2]) for rank in range(len(numbers))]
+    return numpy.array(palette)[which.ravel()]
 
 
 def paint(view, cells, measure):

@@ -5,7 +5,7 @@ import math
 import FreeCAD
 
 from . import compat, fem_mesh, option_table, shapes
-from .errors import InvalidInput
+from .errors import InvalidInput, did_you_mean
 from .stateless import Stateless
 from .words import noop
 
@@ -39,7 +39,7 @@ KINDS = {
 def make(mesh, kind, places, value=None):
     """A new refinement of a mesh object. places: names such as Face3 on the mesh's part. Call inside a transaction. Raises InvalidInput."""
     if kind not in KINDS:
-        raise InvalidInput("there is no refinement '{}'; there are {}".format(kind, ", ".join(KINDS)))
+        raise InvalidInput("there is no refinement '{}'{}".format(kind, did_you_mean(kind, KINDS, "; there are ")))
     solid = shapes.solid_object(compat.part_of(mesh))
     check(solid, KINDS[kind], list(places), value)
     obj = mesh.Document.addObject("Fem::FeaturePython", "Refinement")

@@ -1,5 +1,6 @@
 """Mesh and labels as arrays, as they come out of the child process."""
 
+import itertools
 import json
 import os
 from dataclasses import dataclass, field
@@ -52,6 +53,7 @@ class LabelResult:
     valid: bool  #: whether the labels are those of a polycube, by the published rules
     face_label: dict  #: {3: 0}: the label that covers most of Face3
     edges: dict  #: {5: ("lost", "the map folds there")}: "boundary" of a chart, "feature" inside one, or "lost", with the reason
+    image: object = None  #: (n, 3) float64, the place of every point in the polycube; None of labels alone
 
     def possible(self, face):
         """Labels that the whole of CAD face number `face` can have: some of it faces that way and nothing of it the other way."""
@@ -70,6 +72,20 @@ class LabelResult:
         )
 
 
+def as_runs(numbers):
+    """Numbers as text, "3x5,7x2" for five times 3 and twice 7: those of neighbours are most often equal."""
+    return ",".join("{}x{}".format(number, len(list(equal))) for number, equal in itertools.groupby(numbers))
+
+
+def of_runs(text):
+    """The numbers that as_runs() made text of."""
+    found = []
+    for run in filter(None, text.split(",")):
+        number, length = map(int, run.split("x"))
+        found += [number] * length
+    return found
+
+
 def load_labels(folder):
     """The LabelResult that the worker left in a job folder."""
     import numpy
@@ -83,6 +99,12 @@ def load_labels(folder):
             edges={int(edge): tuple(fate) for edge, fate in plain["edges"].items()},
             **{name: arrays[name] for name in arrays.files},
         )
+
+
+def load_count(folder):
+    """The numbers of hexahedra, least and most, that the worker left in a folder."""
+    with open(os.path.join(folder, "count.json"), encoding="utf-8") as file:
+        return tuple(json.load(file)["hexes"])
 
 
 def load(folder):

@@ -9,6 +9,7 @@ from .cell_view import CellOverlay, Hidden, zoom
 from .folding import Section
 from .histogram import Histogram
 from .measures import BARS, MEASURES, Cells
+from .result import of_runs
 from .words import count, noop, tr
 
 #: Cells in the list of the worst.
@@ -35,6 +36,8 @@ class ResultSection(Section):
         self.histogram = Histogram(clicked=self._bar_clicked)
         self.colours = QtGui.QCheckBox(tr("Quality in colours"))
         self.colours.setToolTip(tr("Paints the mesh as the bars: blue is good, red is bad"))
+        self.blocks = QtGui.QCheckBox(tr("Blocks in colours"))
+        self.blocks.setToolTip(tr("Paints each block of the polycube that the cells divide; a cut shows those inside"))
         self.below = QtGui.QCheckBox(tr("Worse than"))
         self.below.setToolTip(tr("Shows the cells beyond this value alone"))
         self.threshold = QtGui.QDoubleSpinBox()
@@ -62,6 +65,7 @@ class ResultSection(Section):
         self._lay_out()
         self.measure_box.currentIndexChanged.connect(self._measure_changed)
         self.colours.toggled.connect(self._colour)
+        self.blocks.toggled.connect(self._isolate)
         self.below.toggled.connect(self._isolate)
         self.threshold.valueChanged.connect(lambda _: self.below.isChecked() and self._isolate())
         self.cut.currentIndexChanged.connect(self._isolate)
@@ -75,7 +79,7 @@ class ResultSection(Section):
         tools = QtGui.QVBoxLayout(self._tools)
         tools.setContentsMargins(0, 0, 0, 0)
         rows = [[self.below, self.threshold], [self.cut, self.cut_place]]
-        for widget in (self.measure_box, self.histogram, self.colours):
+        for widget in (self.measure_box, self.histogram, self.colours, self.blocks):
             tools.addWidget(widget)
         for row in rows:
             line = QtGui.QHBoxLayout()
@@ -114,6 +118,7 @@ class ResultSection(Section):
         lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
         self.summary.setText("\n".join(lines))
         self._tools.setEnabled(True)
+        self.blocks.setVisible(bool(obj.Blocks))  # documents of older versions have none
         missing = captured["edges"]["lost"] + captured["edges"]["ignored"]
         self.lost.setVisible(bool(missing))
         self.lost.setText(tr("{} lost CAD edges").format(len(missing)))
@@ -186,11 +191,11 @@ class ResultSection(Section):
         self._isolate()
 
     def _isolate(self, *_):
-        """Shows the cells of the chosen bar, beyond the threshold, on one side of the cut; all of them where none of these is chosen."""
+        """Shows the cells of the chosen bar, beyond the threshold, on one side of the cut; the mesh as it is where none of these is chosen, and no blocks."""
         if self._updating or not self._panel.mesh_exists():
             return
         bar, axis = self.histogram.chosen, self.cut.currentIndex() - 1
-        if bar is None and axis < 0 and not self.below.isChecked():
+        if bar is None and axis < 0 and not self.below.isChecked() and not self.blocks.isChecked():
             self._end_cells()
             return
         with busy():
@@ -214,6 +219,8 @@ class ResultSection(Section):
         self._cell_overlay.show(chosen, self._cell_colours())
 
     def _cell_colours(self):
+        if self.blocks.isChecked():
+            return quality_view.block_colours(of_runs(self._panel.obj.Blocks))
         if not self.colours.isChecked():
             return None
         import numpy
@@ -269,7 +276,7 @@ class ResultSection(Section):
                 view.resetNodeColor()
         self.worst.clearSelection()
         self.histogram.choose(None)
-        for box in (self.colours, self.below, self.lost):
+        for box in (self.colours, self.blocks, self.below, self.lost):
             box.setChecked(False)
         self.cut.setCurrentIndex(0)
         self._updating = False

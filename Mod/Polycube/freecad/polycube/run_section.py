@@ -34,7 +34,7 @@ def is_dark(widget):
 
 
 class RunSection(QtGui.QWidget):
-    """progress, time, `best` (a button), status, log."""
+    """progress, time, `best` (a button), status, `tries` (buttons after a refusal), log."""
 
     def __init__(self):
         super().__init__()
@@ -50,6 +50,9 @@ class RunSection(QtGui.QWidget):
         self.status.setObjectName("status")
         self.status.setWordWrap(True)
         self.status.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        self.tries = QtGui.QWidget()
+        self.tries.setVisible(False)
+        QtGui.QVBoxLayout(self.tries).setContentsMargins(0, 0, 0, 0)
         self.log_fold = Section(tr("Log of the mesher"), "log_fold", is_open=False)
         self.log = QtGui.QPlainTextEdit()
         self.log.setReadOnly(True)
@@ -61,14 +64,38 @@ class RunSection(QtGui.QWidget):
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(row)
-        for widget in (self.status, self.best, self.log_fold):
+        for widget in (self.status, self.tries, self.best, self.log_fold):
             layout.addWidget(widget)
         self._layout_number, self._found = 0, ""
+        self._typical = None
 
-    def begin(self, words):
+    def begin(self, words, typical=None):
+        """`typical`: seconds that such a run takes, where that is known."""
         self.progress.setValue(0)
         self._layout_number, self._found = 0, ""
+        self._typical = typical
+        self.offer([])
         self.tell(words)
+
+    def show_time(self, seconds, ended=False):
+        """Seconds since the beginning, and what is typical while it runs."""
+        text = "{:.1f} s".format(seconds)
+        if self._typical and not ended:
+            text = tr("{} of about {:.0f} s").format(text, max(self._typical, 1))
+        self.time.setText(text)
+
+    def offer(self, ways):
+        """What to try, as buttons: pairs of text and what a click does."""
+        layout = self.tries.layout()
+        while layout.count():
+            button = layout.takeAt(0).widget()
+            button.setParent(None)
+            button.deleteLater()
+        for text, work in ways:
+            button = QtGui.QPushButton(text)
+            button.clicked.connect(lambda *_, work=work: work())
+            layout.addWidget(button)
+        self.tries.setVisible(bool(ways))
 
     def tell(self, text, error=False):
         """The one line for the user."""

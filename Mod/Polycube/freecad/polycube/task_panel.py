@@ -8,20 +8,22 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, preferences, refinements, resources, shapes
+from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, preferences, refinements, resources, shapes, typical
 from .analysis_box import AnalysisBox
 from .axes_section import AxesSection
+from .cell_view import zoom
 from .compat import print_error, qt_number
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .folding import Section
 from .refine_section import RefineSection
 from .result_section import ResultSection
-from .run import Run
+from .run import LiveSession, Run
 from .run_section import RunSection
+from .size_hint import SizeHint
 from .words import count, noop, tr
 
 _TITLE = noop("Hexahedral mesh")
-#: What may help where a stage fails, by the stage.
+#: What may help where a stage fails, by the stage; what a button does is added below the line.
 _TRY = {
     "label": noop("Try other axes of faces, or another frame."),
     "deform": noop("Try other axes of faces, or a finer size."),
@@ -29,6 +31,10 @@ _TRY = {
     "fit": noop("Try a finer size, more effort, or give up smooth edges (Feature angle)."),
 }
 _TRY_ELSE = noop("Try a finer size, more effort, or other axes of faces.")
+_WAYS = {"label": ("axes",), "deform": ("axes", "finer"), "quantize": (), "fit": ("finer", "effort", "smooth")}
+_WAYS_ELSE = ("finer", "effort", "axes")
+#: Of a size that was too coarse, and degrees of edges that are given up; the guide advises 10 to 20.
+_FINER, _SMOOTH = 0.7, 15.0
 
 
 def _exists(obj):
@@ -53,7 +59,8 @@ class MeshPanel:
     def __init__(self, part, obj=None, analysis=None):
         self.part, self.obj = part, obj
         self.document_name = part.Document.Name if part else obj.Document.Name
-        self.process = None  # the Run, while there is one
+        self.process = None  # the Run or Request, while there is one
+        self._session = None  # the LiveSession, once labels or a count were asked for
         self.started = 0.0
         self._taking = False
         self._filling = True
@@ -82,10 +89,10 @@ class MeshPanel:
         form.part.setWordWrap(True)
         size = Section(tr("Size"), "size_section")
         self.size_form = fields.OptionForm(plain, self.changed)
-        form.size_hint = QtGui.QLabel()
-        form.size_hint.setWordWrap(True)
+        self.hint = SizeHint(self)
+        form.size_hint = self.hint.label
         size.body.addWidget(self.size_form)
-        size.body.addWidget(form.size_hint)
+        size.body.addWidget(self.hint)
         self.axes = AxesSection(self, [option for option in options if option["type"] == "frame"])
         self.refine = RefineSection(self, places)
         self.advanced = Section(tr("Advanced"), "advanced_section", is_open=False)
@@ -194,21 +201,18 @@ class MeshPanel:
         self.analysis = self.analysis_box.chosen()
         try:
             self._meshed_options = self._parameters()
-            self._asked = refinements.with_refinements(self._meshed_options, self.obj)
+            self._asked = self.asked()
             self._before = option_table.read(self.obj) if self.obj else {}
         except InvalidInput as error:
             self.tell(str(error), error=True)
             return
         if not self._may_go_on():
             return
-        options = self._asked
-        if self.part_exists():
-            options = api.with_constraints(options, self.part, self.analysis)
-        self._start("mesh", options, tr("Meshing"))
+        self._start("mesh", self._asked, tr("Meshing"))
 
     def _may_go_on(self):
         """Asks where the count of cells or the analysis would be a surprise."""
-        expected = self._prediction(self._asked)
+        expected = self.prediction(self._asked)
         if expected and expected.is_startling():
             question = tr("Local sizes make about {} cells of {}: the grid goes through the whole part. Make the mesh?")
             if not _agreed(question.format(count(round(expected.cells)), count(round(expected.plain)))):
@@ -221,25 +225,30 @@ class MeshPanel:
         names = ", ".join(mesh.Label for mesh in others)
         return _agreed(tr("{} holds the mesh {} already. Put the new mesh in its place? The old one stays in the document.").format(self.analysis.Label, names))
 
-    def start_labels(self):
+    def start_labels(self, with_polycube=False):
         """Computes the labels for the preview."""
         try:
-            self._start("labels", refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None), tr("Labelling"))
+            self._start("polycube" if with_polycube else "labels", self.asked(), tr("Labelling"))
         except InvalidInput as error:
             self.tell(str(error), error=True)
 
     def _start(self, what, options, words):
-        """Starts the child process that makes "mesh" or "labels"; _finished takes what it made."""
+        """Starts the child process that makes "mesh", "labels" or "polycube"; _finished takes what it made."""
         self.started = time.monotonic()
+        self.hint.stop()
         work = None
         try:
             if not self.part_exists():
                 raise PolycubeError(tr("there is no part to mesh"))
+            options = api.with_constraints(options, self.part, self.analysis_box.chosen())
             shape = shapes.shape_of(self.part, self.beside())
             shapes.check_solid(shape)
-            self._meshed_shape = shapes.signature(shape)
-            work = job.Job(shape, options, what)
-            self.process = Run(work, self._heard, self._show_time, self._finished)
+            if what == "mesh":
+                self._meshed_shape = shapes.signature(shape)
+                work = job.Job(shape, options, what)
+                self.process = Run(work, self._heard, self._show_time, self._finished)
+            else:
+                self.process = self.live_session(options).ask(what, options, self._heard, self._show_time, self._finished)
         except (PolycubeError, OSError) as error:
             if work:
                 work.close()
@@ -247,7 +256,7 @@ class MeshPanel:
             return
         MeshPanel._running = self
         self.form.parameters.setEnabled(False)
-        self.form.run.begin("{} {} ...".format(words, self.part.Label))
+        self.form.run.begin("{} {} ...".format(words, self.part.Label), typical.seconds(self.obj, shape) if what == "mesh" else None)
         self.log("{} {} ...".format(words, self.part.Label))
         self.process.start()
 
@@ -275,24 +284,29 @@ class MeshPanel:
             self.log(value)
 
     def _show_time(self, seconds):
-        self.form.time.setText("{:.1f} s".format(seconds))
+        self.form.run.show_time(seconds)
 
     def _finished(self, made, error):
-        what, self.process = self.process.job.what, None
+        what, self.process = self.process.what, None
         MeshPanel._running = None
         if self._form is None:  # closed meanwhile
             return
-        self._show_time(time.monotonic() - self.started)
+        taken = time.monotonic() - self.started
+        self.form.run.show_time(taken, ended=True)
         self.form.run.end()
         self.form.parameters.setEnabled(True)
         try:
             if error:
                 raise error
+            if what == "mesh" and self.part_exists():
+                typical.learn(shapes.shape_of(self.part), taken)
             (self._take if what == "mesh" else self._show_labels)(made)
         except PolycubeError as failure:
             self._fail(failure)
         if self._form is not None:
             self.axes.catch_up()
+            if not self.process:
+                self.hint.show_estimate()
 
     def _fail(self, error):
         """Says what went wrong, where, and what may help."""
@@ -303,7 +317,42 @@ class MeshPanel:
         elif isinstance(error, StageFailed):
             text = tr("Refused: {}.").format(text) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
             self.select(error.entities)
+            self.look_at(error.entities)
+            self.form.run.offer(self._ways_out(error.stage))
         self.form.run.tell(text, error=True)
+
+    def _ways_out(self, stage):
+        """Buttons for what may help: each sets an option and meshes again, the axes are shown to be clicked at."""
+        shape, effort, angle = shapes.shape_of(self.part), self.field("effort"), self.field("feature_angle")
+
+        def finer():
+            hexes, size = self.field("hexes"), self.field("size")
+            if hexes.value:
+                hexes.value = round(hexes.value / _FINER**3)
+            else:
+                self.field("coarsest").value = False
+                size.value = float("{:.2g}".format(_FINER * prediction.size_of(shape, self._parameters())))
+
+        def more_effort():
+            effort.value = effort.option["choices"][-1]
+
+        def without_smooth_edges():
+            angle.value = _SMOOTH
+
+        def axes():
+            self.axes.set_open(True)
+            self.axes.preview.setChecked(True)
+
+        def again(change):
+            change()
+            self.apply()
+
+        ways = {"finer": (tr("A finer size"), lambda: again(finer)), "axes": (tr("Other axes of faces"), axes)}
+        if effort.value != effort.option["choices"][-1]:
+            ways["effort"] = (tr("More effort"), lambda: again(more_effort))
+        if angle.value < _SMOOTH:
+            ways["smooth"] = (tr("Smooth edges given up"), lambda: again(without_smooth_edges))
+        return [ways[way] for way in _WAYS.get(stage, _WAYS_ELSE) if way in ways]
 
     def _take(self, result):
         """Puts the mesh into the document, in one undo step."""
@@ -331,7 +380,6 @@ class MeshPanel:
         if warnings:
             text += " " + (warnings[0] if len(warnings) == 1 else tr("{} warnings, see the log: {} ...").format(len(warnings), warnings[0]))
         self.tell(text)
-        self._show_hint()
 
     def _put(self, result, mesh):
         """Object, mesh and place in the analysis; returns warnings."""
@@ -364,6 +412,7 @@ class MeshPanel:
 
     def _show_labels(self, labels):
         line, good = self.axes.show_labels(labels)
+        self.hint.counts = True  # what a count takes longest for is there
         self.form.progress.setValue(100)
         self.tell(line, error=not good)
 
@@ -374,6 +423,9 @@ class MeshPanel:
             process = self.process
             self.cancel()
             process.wait()  # it was killed; _finished is called here
+        self.hint.stop()
+        if self._session:
+            self._session.close()
         self.axes.end()
         self.result.clear()
 
@@ -399,6 +451,18 @@ class MeshPanel:
     def beside(self):
         """What the mesh will be beside: its object or its analysis, as far as there are any."""
         return next(filter(_exists, (self.obj, self.analysis_box.chosen())), None)
+
+    def live_session(self, options):
+        """The session of the part as it is now, begun with these options where there is none yet. It is a process of its own until the panel is closed."""
+        shape = shapes.shape_of(self.part, self.beside())
+        shapes.check_solid(shape)
+        key = (shapes.signature(shape), options.get("sew", True))
+        if self._session and (self._session.has_ended() or self._session.key != key):
+            self._session.close()
+            self._session = None
+        if not self._session:
+            self._session = LiveSession(shape.copy(), options, key)
+        return self._session
 
     def make_object(self):
         """A mesh object without cells, for refinements before the first mesh. Call inside a transaction."""
@@ -436,6 +500,14 @@ class MeshPanel:
             for name in entities:
                 FreeCADGui.Selection.addSelection(top, path + name)
 
+    def look_at(self, entities):
+        """Has the 3D view look at CAD entities from near."""
+        found = [name for name in entities if self.part_exists() and fem_mesh.exists(shapes.shape_of(self.part), name)]
+        if found:
+            shape = shapes.shape_of(self.part)
+            boxes = [shape.getElement(name).BoundBox for name in found]
+            zoom(self.part.Document, FreeCAD.Placement(), [box.getPoint(corner) for box in boxes for corner in range(8)], room=0)
+
     # --- what the panel shows -----------------------------------------------------------------------------------------------
 
     def tell(self, text, error=False):
@@ -455,7 +527,7 @@ class MeshPanel:
         used = [one for one in fineness if one.value != one.option["default"]]
         for one in fineness:
             one.widget.setEnabled(not used or one in used)
-        self._show_hint()
+        self.hint.show_estimate()
 
     def _show_parameters(self):
         self.form.part.setText(self.part.Label if self.part else tr("none"))
@@ -466,34 +538,32 @@ class MeshPanel:
         chosen, MeshPanel.shown_refinement = MeshPanel.shown_refinement, None
         self.refine.show_refinements(chosen and self.obj and self.obj.Document.getObject(chosen))
 
-    def _show_hint(self):
-        """What automatic is, and how many cells there will be."""
-        try:
-            shape = shapes.shape_of(self.part)
-            if shape.isNull():
-                return
-            automatic = FreeCAD.Units.Quantity(prediction.size_of(shape, {}), FreeCAD.Units.Length).UserString
-            lines = [tr("0 is automatic: near to {}").format(automatic)]
-            expected = self._prediction(refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None))
-        except InvalidInput:  # Apply tells
-            return
-        if expected:
-            cells = tr("about {} cells").format(count(_rounded(expected.cells)))
-            if expected.cells > 1.5 * expected.plain:
-                cells = tr("up to {}, {} without local sizes").format(cells, count(_rounded(expected.plain)))
-            lines.append(cells)
-        self.form.size_hint.setText("\n".join(lines))
-
-    def _prediction(self, options):
+    def prediction(self, options):
+        """The prediction.Prediction of a mesh with these options, or None."""
         if not self.part_exists():
             return None
         try:
             shape = shapes.shape_of(self.part)
         except InvalidInput:
             return None
-        if self.mesh_exists() and self.obj.Hexahedra and objects.shape_is_meshed(self.obj):
+        if self._has_current_mesh():
             return prediction.predict_again(shape, options, json.loads(self.obj.MeshedOptions), self.obj.Hexahedra)
         return prediction.predict(shape, options)
+
+    def _has_current_mesh(self):
+        return self.mesh_exists() and bool(self.obj.Hexahedra) and objects.shape_is_meshed(self.obj)
+
+    def is_meshed_with(self, options):
+        """Whether the mesh there is is one of the part as it is now with these options."""
+        return self._has_current_mesh() and json.loads(self.obj.MeshedOptions) == json.loads(json.dumps(options))
+
+    def asked(self):
+        """The options as the panel shows them, with what the refinements ask for. InvalidInput for what cannot be read."""
+        return refinements.with_refinements(self._parameters(), self.obj if self.mesh_exists() else None)
+
+    def wanted(self):
+        """These with the faces that carry constraints, as the mesher gets them."""
+        return api.with_constraints(self.asked(), self.part, self.analysis_box.chosen())
 
     def _parameters(self):
         """The options as the panel shows them, without defaults. InvalidInput for what cannot be read."""
@@ -515,12 +585,6 @@ def _narrow_buttons():
             button.setIcon(QtGui.QIcon())
             button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
             button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
-
-
-def _rounded(number):
-    """Two digits are known of a prediction, not more."""
-    number = round(number)
-    return round(number, 2 - len(str(number)))
 
 
 def _agreed(question):

@@ -512,8 +512,8 @@
       <translation>{} Zellen mit diesen Achsen und Größen</translation>
     </message>
     <message>
-      <source>{} to {}</source>
-      <translation>{} bis {}</translation>
+      <source>({} to {})</source>
+      <translation>({} bis {})</translation>
     </message>
     <message>
       <source>Hexahedral mesh</source>

@@ -173,6 +173,99 @@ class Links(PlacesTest):
         self.assertEqual({obj.MeshState for obj in self.document.Objects if objects.is_polycube(obj)}, {objects.OUTDATED})
 
 
+class Kinds(PlacesTest):
+    """Whatever shows a solid: the mesh fills just that."""
+
+    def check(self, part, solids=1):
+        shape = Part.getShape(part)
+        obj = polycube.create_fem_mesh(part, size=5, order=1)
+        for name in ("XMin", "XMax", "YMin", "YMax", "ZMin", "ZMax"):
+            self.assertAlmostEqual(getattr(obj.FemMesh.BoundBox, name), getattr(shape.BoundBox, name), delta=1e-6)
+        self.assertAlmostEqual(obj.MeshVolume.Value / shape.Volume, 1, delta=1e-6)
+        self.assertEqual(sum(obj.FemMesh.getGroupName(group).startswith("Solid") for group in obj.FemMesh.Groups), solids)
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.CURRENT)
+        return obj
+
+    def test_links_that_scale_and_mirror(self):
+        box = self.box()
+        for scale in (Vector(2, 2, 2), Vector(1, 2, 3), Vector(-1, 1, 1), Vector(-1, -1, -1)):
+            with self.subTest(scale=scale):
+                link = self.add("App::Link", LinkedObject=box, ScaleVector=scale, Placement=TURNED)
+                self.document.recompute()
+                obj = self.check(link)
+                link.ScaleVector = scale * 1.5
+                self.document.recompute()
+                self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+    def test_mirrored_cloned_and_repeated(self):
+        import Draft
+
+        box = self.box()
+        mirrored = self.add("Part::Mirroring", Source=box, Base=Vector(30, 0, 0), Normal=Vector(1, 0, 0))
+        self.document.recompute()
+        clone = Draft.make_clone(box)
+        clone.Scale = Vector(2, 1, 1)
+        row = self.add("App::Link", LinkedObject=box, ShowElement=False, ElementCount=2)
+        row.PlacementList = [Placement(), Placement(Vector(40, 0, 0), Rotation())]
+        link = self.add("App::Link", LinkedObject=mirrored, Placement=MOVED)
+        self.document.recompute()
+        for part, solids in ((mirrored, 1), (clone, 1), (link, 1), (row, 2)):
+            with self.subTest(part=part.Label):
+                self.check(part, solids)
+
+    def test_a_pad_on_a_sketch(self):
+        body, sketch = self.add("PartDesign::Body"), self.add("Sketcher::SketchObject")
+        body.addObject(sketch)
+        corners = [Vector(0, 0), Vector(20, 0), Vector(20, 10), Vector(0, 10)]
+        for start, end in zip(corners, corners[1:] + corners[:1]):
+            sketch.addGeometry(Part.LineSegment(start, end))
+        pad = self.add("PartDesign::Pad")
+        body.addObject(pad)
+        pad.Profile, pad.Length = sketch, 6
+        self.document.recompute()
+        meshes = [self.check(body), self.check(pad)]
+        pad.Length = 9
+        self.document.recompute()
+        self.assertEqual([obj.MeshState for obj in meshes], [objects.OUTDATED] * 2)
+        self.assertAlmostEqual(polycube.update_fem_mesh(meshes[0]).MeshVolume.Value, 1800, delta=1e-3)
+
+    def test_a_part_that_is_deleted(self):
+        box = self.box()
+        self.document.recompute()
+        obj = self.check(box)
+        self.document.removeObject(box.Name)
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        self.document.recompute()
+        with self.assertRaisesRegex(polycube.InvalidInput, "the part that PolycubeMesh was made of is gone"):
+            polycube.update_fem_mesh(obj)
+        self.assertGreater(obj.FemMesh.HexaCount, 0)
+        self.document.undo()
+
+    def test_a_link_into_another_document(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        box = self.box()
+        self.document.recompute()
+        first, self.document = self.document, FreeCAD.newDocument()
+        first.saveAs(os.path.join(folder.name, "first.FCStd"))
+        self.document.saveAs(os.path.join(folder.name, "second.FCStd"))
+        link = self.add("App::Link", LinkedObject=box, Placement=MOVED)
+        self.document.recompute()
+        obj = self.check(link)
+        box.Length = 30
+        first.recompute()
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, objects.OUTDATED)
+        polycube.update_fem_mesh(obj)
+        self.assertEqual((obj.Document, obj.MeshState), (self.document, objects.CURRENT))
+        self.assertEqual([other for other in first.Objects if objects.is_polycube(other)], [])
+        FreeCAD.closeDocument(first.Name)
+        self.document.recompute()
+        with self.assertRaises(polycube.InvalidInput):
+            polycube.update_fem_mesh(obj)
+
+
 class Moves(PlacesTest):
     def test_moving_a_container_is_noticed(self):
         outer = self.add("App::Part", placement=TURNED)

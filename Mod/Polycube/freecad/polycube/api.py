@@ -176,8 +176,10 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     """
     from . import objects, option_table, refinements
 
+    _check_mesh(obj)
     part = objects.part_of(obj)
-    _check_object(part)
+    if part is None:
+        raise InvalidInput("the part that {} was made of is gone".format(obj.Label))
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     shape = shapes.shape_of(part, beside=obj)
     meshed = shapes.signature(shape)

@@ -1,5 +1,7 @@
 """The panel's line about how many cells there will be: an estimate from the shape at once, the number with its labels and blocks once they are made."""
 
+import math
+
 import FreeCAD
 from PySide import QtCore, QtGui
 
@@ -88,7 +90,8 @@ class SizeHint(QtGui.QWidget):
             self._add(str(error))
             return
         least, most = cells
-        self._add(tr("{} cells with these axes and sizes").format(count(least) if least == most else tr("{} to {}").format(count(least), count(most))))
+        text = tr("{} cells with these axes and sizes").format(count(round(math.sqrt(least * most))))
+        self._add(text if least == most else text + " " + tr("({} to {})").format(count(least), count(most)))
 
     def _add(self, line):
         """The line in place of the estimate."""

@@ -488,9 +488,16 @@ FitReport fit(const CadModel& model, HexMesh& mesh, const Association& associati
   return fit_best(model, {{mesh, association}}, options, 1, good, monitor).report;
 }
 
-FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, int most,
-                   const std::function<bool(std::size_t, const FitReport&)>& good, const Monitor& monitor) {
+namespace {
+
+struct Begun {
   std::vector<std::unique_ptr<Fitting>> fittings;
+  std::vector<std::size_t> order;  // the most promising first
+};
+
+Begun begin_all(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, const Monitor& monitor) {
+  Begun result;
+  auto& fittings = result.fittings;
   for (const auto& [mesh, association] : candidates) {
     if (association.point_cad.size() != mesh.points.size()) throw StageFailed("fit", "the association has not one entry a node");
     if (mesh.hexes.empty()) throw StageFailed("fit", "the mesh has no cells");
@@ -498,21 +505,32 @@ FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candi
     fittings.push_back(std::make_unique<Fitting>(model, mesh, association, options, monitor));
     fittings.back()->begin();
   }
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
+  result.order.resize(candidates.size());
+  std::iota(result.order.begin(), result.order.end(), 0);
+  if (fittings.size() == 1) return result;
   std::vector<Prospect> prospects;
-  for (std::size_t i = 0; i < fittings.size() && fittings.size() > 1; ++i) {
+  for (std::size_t i = 0; i < fittings.size(); ++i) {
     prospects.push_back(fittings[i]->prospect());
     prospects[i].second += kDoubt * static_cast<double>(std::min<std::size_t>(i, 1));
   }
-  if (fittings.size() > 1) {
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return prospects[a] < prospects[b]; });
-  }
+  std::stable_sort(result.order.begin(), result.order.end(), [&](std::size_t a, std::size_t b) { return prospects[a] < prospects[b]; });
+  return result;
+}
+
+}  // namespace
+
+std::size_t most_promising(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, const Monitor& monitor) {
+  return candidates.size() == 1 ? 0 : begin_all(model, candidates, options, monitor).order.front();
+}
+
+FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, int most,
+                   const std::function<bool(std::size_t, const FitReport&)>& good, const Monitor& monitor) {
+  const Begun begun = begin_all(model, candidates, options, monitor);
   const auto rank = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
   FitChoice choice;
-  for (std::size_t i : order) {
+  for (std::size_t i : begun.order) {
     if (choice.fitted == most) break;
-    const FitReport report = fittings[i]->finish();
+    const FitReport report = begun.fittings[i]->finish();
     if (choice.fitted++ == 0 || rank(report) > rank(choice.report)) {
       choice.index = i;
       choice.report = report;

@@ -212,10 +212,7 @@ int attempt(const std::string& folder, const std::function<void()>& do_work) {
 
 /// What a line of a session asks for, in `folder`.
 void serve_request(Session& session, const std::string& kind, const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
-  if (kind == "count") {
-    const HexCount count = session.count(options, monitor);
-    return write_text(folder + "/count.json", dump({{"hexes", {count.least, count.most}}}) + "\n");
-  }
+  if (kind == "count") return write_text(folder + "/count.json", dump({{"hexes", session.count(options, monitor)}}) + "\n");
   if (kind == "polycube") return save_labels(folder, session.labels(options, monitor, Until::kMap), session.model().face_count());
   if (job_kind(kind) == JobKind::kLabels) return save_labels(folder, session.labels(options, monitor), session.model().face_count());
   save_mesh(folder, mesh_part(session, options, monitor));

@@ -204,7 +204,7 @@ LabelledPart Session::labels(const MeshOptions& given, const Monitor& monitor, U
   return part;
 }
 
-HexCount Session::count(const MeshOptions& given, const Monitor& monitor) {
+int Session::count(const MeshOptions& given, const Monitor& monitor) {
   const MeshOptions options = checked(model_, given);
   Prepared& p = prepared(options, monitor);
   const MeshOptions posed = posed_->pose.posed(options);

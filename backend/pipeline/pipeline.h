@@ -16,11 +16,6 @@ struct MeshResult {
   MeshReport report;        ///< complete but for what the element order adds (fem fills straightened_edges)
 };
 
-/// How many hexahedra a mesh would have. They differ where ways to pad do: which of them is best only a fit shows.
-struct HexCount {
-  int least = 0, most = 0;
-};
-
 /// Meshes the model. The caller's monitor carries progress, cancel and deadline; options.time_limit is the caller's to turn into one.
 /// Throws InvalidInput (options against this part), StageFailed (no candidate gave a valid mesh), Cancelled.
 MeshResult mesh(const CadModel& model, const MeshOptions& options, const Monitor& monitor);

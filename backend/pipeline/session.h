@@ -26,9 +26,9 @@ class Session {
   MeshResult mesh(const MeshOptions& options, const Monitor& monitor);
   /// As label_part(), on the tetrahedra that there are; the map, where it is asked for, is the one that mesh() takes for these labels.
   LabelledPart labels(const MeshOptions& options, const Monitor& monitor, Until until = Until::kLabels);
-  /// How many hexahedra mesh() would make, without fitting them, which takes most of the time: those of the first plan that comes to a grid, with what padding
-  /// adds. Where no fit makes a valid mesh of it, mesh() goes on to other plans. Throws as mesh().
-  HexCount count(const MeshOptions& options, const Monitor& monitor);
+  /// How many hexahedra mesh() would make, without the fit, which takes most of the time: those of the first plan that comes to a grid, with the padding that
+  /// promises most after a first look. Where no fit makes a good mesh of it, mesh() goes on to others. Throws as mesh().
+  int count(const MeshOptions& options, const Monitor& monitor);
   const CadModel& model() const { return model_; }
 
  private:

@@ -68,11 +68,8 @@ class PartSession {
     return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) { return mesh_part(session_, options, monitor); });
   }
 
-  std::pair<int, int> count(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
-    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) {
-      const HexCount found = session_.count(options, monitor);
-      return std::pair(found.least, found.most);
-    });
+  int count(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
+    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) { return session_.count(options, monitor); });
   }
 
  private:
@@ -129,7 +126,7 @@ void bind_mesh(py::module_& module) {
       .def("mesh", &PartSession::mesh, py::kw_only(), py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
            "As mesh(), by the options given to prepare() and these, which come first.")
       .def("count", &PartSession::count, py::kw_only(), py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-           "How many hexahedra mesh() would make of these options, at least and at most, without fitting them.");
+           "How many hexahedra mesh() would make of these options, without fitting them.");
   module.def("prepare", &prepare, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "A Session of one CAD solid, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");

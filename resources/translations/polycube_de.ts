@@ -412,6 +412,22 @@
       <translation>innen</translation>
     </message>
     <message>
+      <source>Von Mises stress</source>
+      <translation>Von-Mises-Spannung</translation>
+    </message>
+    <message>
+      <source>Temperature</source>
+      <translation>Temperatur</translation>
+    </message>
+    <message>
+      <source>Displacement</source>
+      <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>{}: {:.4g} (blue) to {:.4g} {} (red). A double click on {} shows more.</source>
+      <translation>{}: {:.4g} (blau) bis {:.4g} {} (rot). Ein Doppelklick auf {} zeigt mehr.</translation>
+    </message>
+    <message>
       <source>Reading the part</source>
       <translation>Bauteil lesen</translation>
     </message>
@@ -510,10 +526,6 @@
     <message>
       <source>{} cells with these axes and sizes</source>
       <translation>{} Zellen mit diesen Achsen und Größen</translation>
-    </message>
-    <message>
-      <source>({} to {})</source>
-      <translation>({} bis {})</translation>
     </message>
     <message>
       <source>Hexahedral mesh</source>

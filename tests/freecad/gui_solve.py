@@ -9,7 +9,7 @@ import FemGui
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
-from gui_support import GuiTest, process_events
+from gui_support import GuiTest, picture, process_events
 from PySide import QtCore, QtGui
 
 from freecad import polycube
@@ -56,9 +56,17 @@ class Solve(GuiTest):
         if not ccx.find():
             self.skipTest(ccx.MISSING)
         self.assertTrue(commands.Solve().IsActive())
+        self.document.clearUndos()
         with mock.patch.object(QtGui.QMessageBox, "information") as told:
             FreeCADGui.runCommand(commands.Solve.Name)
-        self.assertEqual(len(self.results()), 1)
+        (result,) = self.results()
+        process_events()
+        picture("stresses")
+        self.assertRegex(FreeCADGui.getMainWindow().statusBar().currentMessage(), r"^Von Mises stress: [\d.]+ \(blue\) to [\d.]+ MPa \(red\)")
+        self.assertTrue(result.Mesh.ViewObject.isVisible())
+        self.assertFalse(self.box.ViewObject.isVisible(), "it would hide the stresses")
+        self.assertFalse(self.document.PolycubeMesh.ViewObject.isVisible())
+        self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
     def test_an_analysis_that_was_made_after_the_mesh(self):

@@ -157,24 +157,20 @@ class Evaluator::Work {
   }
 
   // As the mesh would come to it, with the number of cells that is asked for met likewise.
-  HexCount count(const Plan& plan) {
-    int best = 0;
-    HexCount result;
+  int count(const Plan& plan) {
+    int cells = 0;
     for (int round = 0; round <= kRecounts; ++round) {
       Draft draft;
       const Association association = gridded(plan, options_.divisions, draft);
-      const std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_); });
-      const auto cells = [](const PaddedMesh& m) { return static_cast<int>(m.mesh.hexes.size()); };
-      const int first = cells(choices.front());
+      std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_); });
+      const int padded = static_cast<int>(choices[promising(choices)].mesh.hexes.size());
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
-      if (round > 0 && miss(first) >= miss(best)) break;
-      best = first;
-      result = {first, first};
-      for (const PaddedMesh& m : choices) result = {std::min(result.least, cells(m)), std::max(result.most, cells(m))};
-      if (options_.hexes <= 0 || miss(first) <= kPaddedMiss) break;
-      grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / first;
+      if (round > 0 && miss(padded) >= miss(cells)) break;
+      cells = padded;
+      if (options_.hexes <= 0 || miss(cells) <= kPaddedMiss) break;
+      grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / padded;
     }
-    return result;
+    return cells;
   }
 
  private:
@@ -464,6 +460,26 @@ class Evaluator::Work {
     return association;
   }
 
+  FitOptions fit_options() const {
+    FitOptions result;
+    result.threads = own_.threads_;
+    return result;
+  }
+
+  static std::vector<FitCandidate> candidates_of(std::vector<PaddedMesh>& choices) {
+    std::vector<FitCandidate> result;
+    for (PaddedMesh& c : choices) result.push_back({c.mesh, c.association});
+    return result;
+  }
+
+  // Where all have about as many cells, the first will do.
+  std::size_t promising(std::vector<PaddedMesh>& choices) {
+    const auto [least, most] =
+        std::minmax_element(choices.begin(), choices.end(), [](const PaddedMesh& a, const PaddedMesh& b) { return a.mesh.hexes.size() < b.mesh.hexes.size(); });
+    if (static_cast<double>(most->mesh.hexes.size()) <= (1 + kCountMiss) * static_cast<double>(least->mesh.hexes.size())) return 0;
+    return clock_.stage("fit", [&] { return most_promising(model_, candidates_of(choices), fit_options(), monitor_); });
+  }
+
   // Pads by the plan that the draft chose before, or by the best of all.
   void pad_and_fit(Draft& draft, const Association& association) {
     std::vector<PadReport> pad_reports;
@@ -474,12 +490,9 @@ class Evaluator::Work {
       pad_reports = {pad_reports[index]};
     }
     if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
-    FitOptions fit_options;
-    fit_options.threads = own_.threads_;
-    std::vector<FitCandidate> candidates;
-    for (PaddedMesh& c : choices) candidates.push_back({c.mesh, c.association});
+    const std::vector<FitCandidate> candidates = candidates_of(choices);
     const auto good = [&](std::size_t i, const FitReport& r) { return r.inverted == 0 && good_cells(score_of(r.min_scaled_jacobian, choices[i])); };
-    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options, fits_left_, good, monitor_); });
+    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options(), fits_left_, good, monitor_); });
     const std::size_t chosen = best.index;
     fits_left_ -= best.fitted;
     draft.fitted = best.report;
@@ -555,7 +568,7 @@ Outcome Evaluator::evaluate(const Plan& plan, const Made* from, int fits) {
   return work.anew(plan);
 }
 
-HexCount Evaluator::count(const Plan& plan) { return Work(*this, 0).count(plan); }
+int Evaluator::count(const Plan& plan) { return Work(*this, 0).count(plan); }
 
 MeshResult Evaluator::result(const Outcome& outcome) const {
   const Draft& draft = draft_in(outcome);

@@ -22,7 +22,7 @@ class Evaluator {
   /// As Evaluate (search.h) says; throws what the stages throw.
   Outcome evaluate(const Plan& plan, const Made* from, int fits);
   /// Hexahedra of a plan's grid with its padding; throws what the stages throw.
-  HexCount count(const Plan& plan);
+  int count(const Plan& plan);
   /// The mesh of an outcome with a score; its report lacks what depends on the part's place, and the warnings of the search.
   MeshResult result(const Outcome& outcome) const;
   /// Seconds that the gate took with the last mesh.

@@ -75,7 +75,7 @@ def prepare(shape_or_object, **options):
 
     >>> with polycube.prepare(part, order=1) as session:
     ...     session.count(size=10), len(session.mesh(size=20).hexes)
-    ((72, 72), 27)
+    (72, 27)
     """
     from .session import Session
 

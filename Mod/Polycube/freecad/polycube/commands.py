@@ -74,7 +74,7 @@ class Solve:
         return bool(FreeCAD.ActiveDocument) and analyses.active(FreeCAD.ActiveDocument) is not None and not FreeCADGui.Control.activeDialog()
 
     def Activated(self):
-        from . import solver
+        from . import result_view, solver
 
         analysis = analyses.active(FreeCAD.ActiveDocument)
         macro.begin()
@@ -98,6 +98,9 @@ class Solve:
             return
         finally:
             progress.close()
+        line = result_view.show(analysis, solution.result)
+        FreeCADGui.getMainWindow().statusBar().showMessage(line)
+        FreeCAD.Console.PrintMessage(line + "\n")
         if solution.notes:
             QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
 

@@ -102,9 +102,9 @@ def load_labels(folder):
 
 
 def load_count(folder):
-    """The numbers of hexahedra, least and most, that the worker left in a folder."""
+    """The number of hexahedra that the worker left in a folder."""
     with open(os.path.join(folder, "count.json"), encoding="utf-8") as file:
-        return tuple(json.load(file)["hexes"])
+        return json.load(file)["hexes"]
 
 
 def load(folder):

@@ -27,10 +27,9 @@ class Session:
         return self._make("labels", options, progress, log, cancel)
 
     def count(self, progress=None, log=None, cancel=None, **options):
-        """How many hexahedra mesh() would make, at least and at most, without making them; most often in a fraction of its time.
+        """How many hexahedra mesh() would make, without making them; most often in a fraction of its time.
 
-        It is told by the first of the ways that mesh() goes, whose cells are not fitted to the part; the two differ where only a fit shows which layers at the
-        boundary are best. Where that way fails, mesh() goes on to others.
+        It is told by the first of the ways that mesh() goes, whose cells are not fitted to the part. Where that one is not good, mesh() goes on to others.
         """
         return self._make("count", options, progress, log, cancel)
 

@@ -1,7 +1,5 @@
 """The panel's line about how many cells there will be: an estimate from the shape at once, the number with its labels and blocks once they are made."""
 
-import math
-
 import FreeCAD
 from PySide import QtCore, QtGui
 
@@ -86,12 +84,7 @@ class SizeHint(QtGui.QWidget):
         if self._panel.form is None or isinstance(error, Cancelled):
             return
         self._request = None
-        if error:
-            self._add(str(error))
-            return
-        least, most = cells
-        text = tr("{} cells with these axes and sizes").format(count(round(math.sqrt(least * most))))
-        self._add(text if least == most else text + " " + tr("({} to {})").format(count(least), count(most)))
+        self._add(str(error) if error else tr("{} cells with these axes and sizes").format(count(cells)))
 
     def _add(self, line):
         """The line in place of the estimate."""

@@ -580,6 +580,10 @@
       <translation>Der Vernetzer läuft schon.</translation>
     </message>
     <message>
+      <source>Nothing has changed since this mesh was made.</source>
+      <translation>Seit dieses Netz gemacht wurde, hat sich nichts geändert.</translation>
+    </message>
+    <message>
       <source>Meshing</source>
       <translation>Vernetzen:</translation>
     </message>

@@ -25,8 +25,8 @@ class Checker(doctest.OutputChecker):
 class Examples(solve_tests.SolveTest):
     __unittest_skip__ = False  # but for its solving half
 
-    def names(self):
-        """What the examples use: a block, a mesh of it, an analysis."""
+    def names(self, example):
+        """What the example uses: a block, a mesh of it, an analysis."""
         part = self.part(Part.makeBox(60, 40, 20))
         other = self.document.addObject("Part::Feature", "Other")
         other.Shape = Part.makeBox(60, 40, 20, solve_tests.Vector(0, 0, 20))
@@ -34,14 +34,14 @@ class Examples(solve_tests.SolveTest):
             "polycube": polycube,
             "part": part,
             "other": other,
-            "mesh": polycube.create_fem_mesh(part, size=20),
+            "mesh": polycube.create_fem_mesh(part, size=20) if "(mesh" in example else None,
             "analysis": ObjectsFem.makeAnalysis(self.document, "Analysis"),
         }
 
     def check(self, calls):
         for name in sorted(calls):
             call = getattr(polycube, name)
-            (example,) = doctest.DocTestFinder(recurse=False).find(call, name, globs=self.names())
+            (example,) = doctest.DocTestFinder(recurse=False).find(call, name, globs=self.names(call.__doc__))
             self.assertTrue(example.examples, "{} has no example".format(name))
             if name in _SOLVING:
                 example.globs["loaded"] = self.loaded()

@@ -8,6 +8,7 @@ import FreeCADGui
 import gui_panel
 import Part
 from gui_support import mouse, picture, process_events, wait_until
+from pivy import coin
 from PySide import QtCore, QtGui
 
 from freecad.polycube import commands, help_page, preferences, typical
@@ -152,7 +153,11 @@ class ToSee(AidsTest):
         labels = panel.axes.shown
         places = beside(labels)
         self.assertGreater(places[:, 0].min(), labels.points[:, 0].max(), "beside the part")
-        flat = [abs(places[labels.triangles[labels.chart == chart]][:, :, int(labels.label[labels.chart == chart][0]) // 2].ptp()) for chart in range(labels.chart.max() + 1)]
+        flat = []
+        for chart in range(labels.chart.max() + 1):
+            own = labels.chart == chart
+            along = places[labels.triangles[own]][:, :, int(labels.label[own][0]) // 2]
+            flat.append(along.max() - along.min())
         self.assertLess(max(flat), 1e-6, "each chart is on a plane")
         self.assertEqual(scene.getNumChildren(), before + 1)
         picture("polycube-beside")
@@ -171,7 +176,32 @@ class ToSee(AidsTest):
         panel.result.cut.setCurrentIndex(0)
         self.assertEqual(scene.getNumChildren(), before)
         panel.result.blocks.setChecked(True)
+        self.look_at_cells(scene, before)
         self.press("Ok")
+        self.assertEqual(scene.getNumChildren(), before)
+
+    def look_at_cells(self, scene, before):
+        """A cell of the list from near, by itself; CAD edges that have no mesh edges, in red."""
+        result = self.panel.result
+        result.blocks.setChecked(False)
+        camera = FreeCADGui.activeDocument().activeView().getCameraNode()
+        whole = camera.height.getValue() if hasattr(camera, "height") else None
+        result.worst.itemDoubleClicked.emit(result.worst.item(0, 0))
+        self.assertEqual(scene.getNumChildren(), before + 1)
+        if whole:
+            self.assertLess(camera.height.getValue(), 0.5 * whole)
+        result.cut.setCurrentIndex(1)
+        result.cut.setCurrentIndex(0)
+        self.assertEqual(scene.getNumChildren(), before)
+        result._report["cad"]["edges"]["lost"] = ["Edge1", "Edge5"]
+        result.lost.setChecked(True)
+        self.assertEqual(scene.getNumChildren(), before + 1)
+        search = coin.SoSearchAction()
+        search.setType(coin.SoBaseColor.getClassTypeId())
+        search.apply(scene.getChild(before))
+        self.assertEqual(tuple(round(channel, 2) for channel in search.getPath().getTail().rgb[0].getValue()), (0.86, 0.08, 0.12))
+        picture("lost-edges")
+        result.lost.setChecked(False)
         self.assertEqual(scene.getNumChildren(), before)
 
     def test_numbers_as_text(self):

@@ -1,6 +1,6 @@
 """The panel opened and closed again and again, in every way that a panel opens and closes; run by gui.sh.
 
-POLYCUBE_OPENINGS sets how often, 40 unless told: 300 take two to five minutes.
+POLYCUBE_OPENINGS sets how often, 24 unless told: 300 take two to five minutes.
 """
 
 import gc
@@ -15,7 +15,7 @@ from PySide import QtGui
 from freecad import polycube
 from freecad.polycube import task_panel
 
-OPENINGS = int(os.environ.get("POLYCUBE_OPENINGS", "40"))
+OPENINGS = int(os.environ.get("POLYCUBE_OPENINGS", "24"))
 
 
 class Openings(GuiTest):

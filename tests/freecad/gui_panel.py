@@ -317,7 +317,7 @@ class RecordedMacro(PanelTest):
         box = document.addObject("Part::Box", "Block")
         box.Length, box.Width, box.Height = 60, 40, 20
         document.recompute()
-        exec(compile(lines, path, "exec"), {})
+        exec(compile(lines, path, "exec"), {"App": FreeCAD, "Gui": FreeCADGui})
         (made,) = [obj for obj in document.Objects if objects.is_polycube(obj)]
         self.assertTrue(Macros.same(recorded, made), "bit for bit")
 
@@ -378,6 +378,7 @@ class Analyses(PanelTest):
         with self.answer(QtGui.QMessageBox.No) as asked:
             self.apply(panel)
         self.assertEqual(asked, [], "its own mesh is no other")
+        self.assertEqual(panel.form.status.text(), "Nothing has changed since this mesh was made.")
         self.press("Ok")
 
 

@@ -38,7 +38,7 @@ def mouse(widget, point, double=False):
 
 
 def picture(name):
-    process_events(0.5)
+    process_events(0.2)
     QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name + ".png"))
 
 

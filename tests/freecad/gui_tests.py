@@ -300,6 +300,9 @@ class AxesOfFaces(GuiTest):
         self.settle()
         self.assertEqual(self.children_of_scene(), before + 1)
         self.assertTrue(self.panel.axes.shown.valid)
+        view = FreeCADGui.activeDocument().activeView()
+        hit = view.getObjectInfo(view.getPointOnScreen(self.chamfered.Shape.Faces[self.chamfer - 1].CenterOfMass))
+        self.assertEqual((hit["Object"], hit["Component"]), (self.chamfered.Name, "Face{}".format(self.chamfer)), "the preview lets clicks through")
         (automatic,) = self.shown(self.chamfer)
         self.assertIn(automatic, (0, 4))
         picture("labels-automatic")
@@ -321,7 +324,13 @@ class AxesOfFaces(GuiTest):
         self.assertEqual(self.children_of_scene(), before)
         self.click(self.chamfer)
         self.assertEqual(self.panel.axes.labels, {}, "without the preview clicks select as ever")
-        self.press("Cancel")
+        self.panel.axes.preview.setChecked(True)
+        self.settle()
+        FreeCADGui.Control.closeDialog()
+        process_events()
+        self.assertEqual(self.children_of_scene(), before)
+        self.click(self.chamfer)
+        self.assertEqual(self.panel.axes.labels, {}, "a panel that is gone takes no clicks")
 
     def test_axes_reach_mesh_and_properties(self):
         self.panel.axes.preview.setChecked(True)
@@ -342,25 +351,6 @@ class AxesOfFaces(GuiTest):
         self.press("Ok")
         self.assertEqual(list(self.panel.obj.Labels), [])
         self.assertEqual(self.panel.obj.MeshState, objects.OUTDATED)
-
-    def test_a_real_click_in_the_view(self):
-        self.panel.axes.preview.setChecked(True)
-        self.settle()
-        view = FreeCADGui.activeDocument().activeView()
-        face = self.chamfered.Shape.Faces[self.chamfer - 1]
-        x, y = view.getPointOnScreen(face.CenterOfMass)
-        hit = view.getObjectInfo((x, y))
-        self.assertEqual((hit["Object"], hit["Component"]), (self.chamfered.Name, "Face{}".format(self.chamfer)), "the preview lets clicks through")
-
-    def test_a_panel_that_is_gone_takes_no_clicks(self):
-        before = self.children_of_scene()
-        self.panel.axes.preview.setChecked(True)
-        self.settle()
-        FreeCADGui.Control.closeDialog()
-        process_events()
-        self.assertEqual(self.children_of_scene(), before)
-        self.click(self.chamfer)
-        self.assertEqual(self.panel.axes.labels, {})
 
 
 class InAContainer(GuiTest):

@@ -2,6 +2,7 @@
 
 import FreeCAD
 import FreeCADGui
+import polycube_commands
 from PySide import QtCore, QtGui
 
 from . import analyses, api, macro, objects, resources, shapes
@@ -136,7 +137,4 @@ def _give_mesh(analysis):
 
 def register():
     """Adds the commands that FreeCAD does not know yet."""
-    known = FreeCADGui.listCommands()
-    for command in (MeshFromShape, Solve, Help):
-        if command.Name not in known:
-            FreeCADGui.addCommand(command.Name, command())
+    polycube_commands.register((MeshFromShape, Solve, Help))

@@ -206,9 +206,23 @@ class MeshPanel:
         except InvalidInput as error:
             self.tell(str(error), error=True)
             return
+        if self._nothing_has_changed():
+            self.tell(tr("Nothing has changed since this mesh was made."))
+            return
         if not self._may_go_on():
             return
         self._start("mesh", self._asked, tr("Meshing"))
+
+    def _nothing_has_changed(self):
+        """Whether the mesher would make the mesh that there is. Of one whose search was ended early it might make another, of several materials other groups."""
+        if not self.is_meshed_with(self._asked) or self.obj.MeshState != objects.CURRENT or self.analysis != objects.analysis_of(self.obj):
+            return False
+        report = json.loads(self.obj.Report)
+        kept = report.get("options", {}).get("keep_faces", "")
+        same_faces = set(kept.split(",")) == set((self.wanted().get("keep_faces") or "").split(","))
+        materials = [member for member in self.analysis.Group if member.isDerivedFrom("App::MaterialObject")] if self.analysis else []
+        groups_fit = not self.analysis or (objects.GROUPS_ARE_ASKED and len(materials) < 2)
+        return same_faces and groups_fit and not report.get("search", {}).get("out_of_time", True)
 
     def _may_go_on(self):
         """Asks where the count of cells or the analysis would be a surprise."""

@@ -124,12 +124,13 @@ def main():
     picture("first-mesh")
 
     panel.axes.set_open(True)
-    panel.axes.preview.setChecked(True)
-    wait(lambda: panel.axes.shown, PATIENCE)
+    panel.axes.beside.setChecked(True)
+    wait(lambda: panel.axes.shown and not panel.process, PATIENCE)
     scroll_to(panel, panel.axes)
     picture("axes")
     panel.axes.preview.setChecked(False)
     panel.axes.set_open(False)
+    view.fitAll()
 
     panel.show_part_alone()
     for name in named["loads"]:
@@ -146,6 +147,9 @@ def main():
     panel.result.cut_place.setValue(78)
     scroll_to(panel, panel.result)
     picture("quality")
+    panel.result.clear()
+    panel.result.blocks.setChecked(True)
+    picture("blocks")
     panel.accept()
 
     if ccx.find():

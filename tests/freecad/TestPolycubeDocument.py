@@ -6,7 +6,7 @@ import FreeCAD
 import Part
 
 from freecad import polycube
-from freecad.polycube import api, objects, option_table, prediction
+from freecad.polycube import api, compat, objects, option_table, prediction
 
 
 class DocumentTest(unittest.TestCase):
@@ -63,6 +63,25 @@ class Steps(DocumentTest):
         self.box.Length = 50
         self.document.recompute()
         self.assertEqual(obj.MeshState, objects.OUTDATED)
+
+
+class Copies(DocumentTest):
+    def test_a_copy_is_a_mesh_of_its_own(self):
+        """Alone, with its part and refinements, into another document: cells, groups, options and state are there, and it can be meshed again."""
+        obj = polycube.create_fem_mesh(self.box, size=10, order=1)
+        polycube.refine(obj, "layers", ["Face1", "Face2"], 6)
+        polycube.update_fem_mesh(obj)
+        for document, with_what in ((self.document, False), (self.document, True), (self.new_document(), True)):
+            with self.subTest(document=document.Name, with_what=with_what):
+                made = document.copyObject(obj, with_what)
+                copy = next(one for one in (made if isinstance(made, (list, tuple)) else [made]) if objects.is_polycube(one))
+                document.recompute()
+                self.assertEqual((copy.FemMesh.HexaCount, copy.MeshState, copy.Blocks), (obj.FemMesh.HexaCount, objects.CURRENT, obj.Blocks))
+                self.assertEqual(len(copy.FemMesh.Groups), len(obj.FemMesh.Groups))
+                self.assertEqual(compat.part_of(copy) == self.box, not with_what)
+                self.assertEqual(polycube.update_fem_mesh(copy, size=5).MeshState, objects.CURRENT)
+                self.assertGreater(copy.Hexahedra, obj.Hexahedra)
+                self.assertEqual(obj.MeshState, objects.CURRENT)
 
 
 class OptionsAnew(DocumentTest):

@@ -268,13 +268,12 @@ class Macros(PanelTest):
         panel.field("sizes").value = ""
         panel.field("min_layers").value = 3
         self.apply(panel)
-        _, (made,) = self.replay()
-        self.assertTrue(self.same(panel.obj, made), self.lines)
         panel.field("hexes").value = 400
         panel.field("effort").value = "quick"
         panel.analysis_box.setCurrentIndex(0)
         self.press("Ok")
         document, (made,) = self.replay()
+        self.assertTrue(self.same(panel.obj, made), self.lines)
         self.assertEqual(option_table.read(made), option_table.read(panel.obj))
         self.assertEqual(made.MeshState, objects.OUTDATED)
         self.assertNotIn(made, document.Analysis.Group)

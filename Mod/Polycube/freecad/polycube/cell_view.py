@@ -19,7 +19,11 @@ class CellOverlay(overlay.Overlay):
         self._cells = cells
         sides = cells.nodes[:, :8][:, measures.SIDES]  # (cells, 6, 4)
         self._sides = sides.reshape(-1, 4)
-        _, first, twin = numpy.unique(numpy.sort(self._sides, axis=1), axis=0, return_index=True, return_inverse=True)
+        # Three corners tell a side; as one number, they are sorted ten times as fast as rows.
+        corners = numpy.sort(self._sides, axis=1).astype(numpy.int64)
+        count = len(cells.points)
+        keys = (corners[:, 0] * count + corners[:, 1]) * count + corners[:, 2]
+        _, first, twin = numpy.unique(keys, return_index=True, return_inverse=True)
         twin = twin.ravel()
         # The cell behind each side, -1 at the boundary: of two equal sides each finds the other.
         other = numpy.full(len(self._sides), -1)

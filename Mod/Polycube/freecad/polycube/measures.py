@@ -139,6 +139,6 @@ class Cells:
         """For each of node_numbers the goodness of the worst of its cells."""
         worst = numpy.ones(len(self.points))
         good = measure.goodness(self.values(measure))
-        for column in self.nodes.T:
-            numpy.minimum.at(worst, column, good)
+        order = numpy.argsort(-good, kind="stable")
+        worst[self.nodes[order]] = good[order, None]  # of several values for one node the last stays, which is the least
         return worst[self.node_numbers]

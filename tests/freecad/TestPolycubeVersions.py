@@ -9,14 +9,12 @@ from unittest import mock
 import FreeCAD
 
 from freecad import polycube
-from freecad.polycube import compat, fem_mesh, objects
+from freecad.polycube import compat, fem_mesh, objects, refinements
 
 DOCUMENTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "documents")
 
 
-class Documents(unittest.TestCase):
-    """A box of 10 mm in an analysis with a support on Face1, meshed with size 5 and Face2=+X."""
-
+class DocumentTest(unittest.TestCase):
     def open(self, name):
         folder = tempfile.mkdtemp(prefix="polycube-versions-")
         self.addCleanup(shutil.rmtree, folder, True)
@@ -24,6 +22,14 @@ class Documents(unittest.TestCase):
         document = FreeCAD.openDocument(path)
         self.addCleanup(lambda: FreeCAD.closeDocument(document.Name))
         return document
+
+    def knows_meshes_of_1_0(self, document):
+        """FreeCAD 0.20 does not know the type of the mesh object and leaves it out."""
+        return "Fem::FemMeshShapeBaseObjectPython" in document.supportedTypes()
+
+
+class Documents(DocumentTest):
+    """A box of 10 mm in an analysis with a support on Face1, meshed with size 5 and Face2=+X."""
 
     def check(self, document):
         obj = next(obj for obj in document.Analysis.Group if objects.is_polycube(obj))
@@ -44,13 +50,53 @@ class Documents(unittest.TestCase):
         self.check(self.open("box-0.20.FCStd"))
 
     def test_of_1_0(self):
-        """FreeCAD 0.20 does not know the type of the mesh object and leaves it out; the rest of the document is there."""
+        """What is beside a mesh object that is left out is there."""
         document = self.open("box-1.0.FCStd")
-        if "Fem::FemMeshShapeBaseObjectPython" in document.supportedTypes():
+        if self.knows_meshes_of_1_0(document):
             self.check(document)
         else:
             self.assertEqual([obj for obj in document.Objects if objects.is_polycube(obj)], [])
             self.assertEqual(polycube.create_fem_mesh(document.Box, size=5, analysis=document.Analysis).Hexahedra, 8)
+
+
+class Refined(DocumentTest):
+    """A mesh with a refinement of each kind, as documents/make.py makes it."""
+
+    ASKED = {"divisions": "Edge4=8,Face3-Face5=3,Edge10=16..", "bias": "Edge2=2.0", "keep_faces": "Face3", "labels": {"Face1": "-X"}}
+
+    def check(self, document, mesh):
+        self.assertEqual([one.Kind for one in mesh.Refinements], list(refinements.KINDS))
+        self.assertEqual([one.Fault for one in mesh.Refinements], [""] * len(refinements.KINDS))
+        self.assertEqual([one.Suppressed for one in mesh.Refinements], [True] + [False] * (len(refinements.KINDS) - 1))
+        self.assertEqual(refinements.with_refinements({}, mesh), self.ASKED)
+        size, divisions = mesh.Refinements[:2]
+        self.assertEqual((size.Size.Value, polycube.set_refinement(divisions, "10").Elements), (2, "10"))
+        document.recompute()
+        self.assertNotEqual(mesh.MeshState, objects.CURRENT)
+        polycube.update_fem_mesh(mesh)
+        edge4 = next(group for group in mesh.FemMesh.Groups if mesh.FemMesh.getGroupName(group) == "Edge4" and mesh.FemMesh.getGroupElementType(group) == "Edge")
+        self.assertEqual((mesh.MeshState, len(mesh.FemMesh.getGroupElements(edge4))), (objects.CURRENT, 10))
+        document.save()
+
+    def check_mesh(self, document):
+        document.recompute()
+        (mesh,) = objects.meshes_of(document.Plate)
+        self.assertEqual(mesh.MeshState, objects.CURRENT)
+        self.check(document, mesh)
+
+    def test_of_0_20(self):
+        self.check_mesh(self.open("refined-0.20.FCStd"))
+
+    def test_of_1_0(self):
+        """Refinements whose mesh object is left out can be given to another."""
+        document = self.open("refined-1.0.FCStd")
+        if self.knows_meshes_of_1_0(document):
+            return self.check_mesh(document)
+        kept = [obj for obj in document.Objects if refinements.is_refinement(obj)]
+        mesh = polycube.create_fem_mesh(document.Plate, size=8, order=1, only_object=True)
+        mesh.Refinements = kept
+        document.recompute()
+        self.check(document, mesh)
 
 
 class Compat(unittest.TestCase):

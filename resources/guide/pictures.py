@@ -93,7 +93,7 @@ def arrange():
     window.showMaximized()
     FreeCADGui.activateWorkbench("PolycubeWorkbench")
     for dock in window.findChildren(QtGui.QDockWidget):
-        if dock.objectName() == "Combo View":
+        if dock.objectName() in ("Combo View", "Tasks"):
             window.resizeDocks([dock], [320], QtCore.Qt.Horizontal)
         elif dock.objectName() in ("Report view", "Python console"):
             dock.hide()

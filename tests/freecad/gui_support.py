@@ -42,16 +42,24 @@ def picture(name):
     QtGui.QApplication.primaryScreen().grabWindow(0).save(os.path.join(OUT, name + ".png"))
 
 
+def set_panel_width(width):
+    """Returns the dock of the task panel: in FreeCAD 0.20 it has the tree too, in 1.x it is for the panel alone."""
+    window = FreeCADGui.getMainWindow()
+    docks = {dock.objectName(): dock for dock in window.findChildren(QtGui.QDockWidget)}
+    dock = docks.get("Combo View") or docks["Tasks"]
+    window.resizeDocks([dock], [width], QtCore.Qt.Horizontal)
+    return dock
+
+
 class GuiTest(unittest.TestCase):
     def setUp(self):
         FreeCADGui.activateWorkbench("PolycubeWorkbench")
         window = FreeCADGui.getMainWindow()
         window.showMaximized()
         for dock in window.findChildren(QtGui.QDockWidget):
-            if dock.objectName() == "Combo View":
-                window.resizeDocks([dock], [460], QtCore.Qt.Horizontal)
-            elif dock.objectName() in ("Report view", "Python console"):
+            if dock.objectName() in ("Report view", "Python console"):
                 dock.hide()
+        set_panel_width(460)
         self.document = FreeCAD.newDocument()
         self.name = self.document.Name
         self.document.UndoMode = 1

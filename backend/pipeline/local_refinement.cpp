@@ -106,8 +106,12 @@ RefinePlan plan_for_bores(const std::vector<RoundEdge>& edges, const EdgeLevels&
   return plan;
 }
 
-std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, const Monitor& monitor) {
-  return refine_cells(mesh, association, region_of(mesh, association, plan, 1), monitor).mesh.hexes.size();
+std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int levels, const Monitor& monitor) {
+  RefinedMesh refined{mesh, association, {}, 0};
+  for (int level = 1; level <= std::min(levels, most_levels(plan)); ++level) {
+    refined = refine_cells(refined.mesh, refined.association, region_of(refined.mesh, refined.association, plan, level), monitor);
+  }
+  return refined.mesh.hexes.size();
 }
 
 LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, const RefinePlan& plan, const FitOptions& options, const Monitor& monitor) {

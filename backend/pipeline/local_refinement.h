@@ -1,6 +1,8 @@
 // Local refinement of a mesh that stands on the CAD: divided, and fitted again, level by level.
 #pragma once
 
+#include <limits>
+
 #include "cad/cad.h"
 #include "core/demands.h"
 #include "fit/fit.h"
@@ -20,8 +22,9 @@ struct RefinePlan {
 /// What brings the bores among `edges` (with `levels`) to the elements that they need, where the mesh has fewer.
 RefinePlan plan_for_bores(const std::vector<RoundEdge>& edges, const EdgeLevels& levels, const Association& association, int edge_count);
 
-/// Cells after the first level of the plan.
-std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, const Monitor& monitor);
+inline constexpr int kAllLevels = std::numeric_limits<int>::max();
+/// Cells after the first `levels` of the plan; it does not move nodes.
+std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int levels, const Monitor& monitor);
 
 struct LocallyRefined {
   PaddedMesh padded;

@@ -184,7 +184,7 @@ MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
 }
 
 LabelledPart Session::labels(const MeshOptions& given, const Monitor& monitor, Until until) {
-  check(given, model_.diagonal(), model_.faces(), model_.edges());
+  check(given, model_.diagonal(), {model_.faces(), model_.edges(), model_.vertices()});
   Prepared& p = prepared(without_solids(given), monitor);
   const Labelled& labelled = p.structures.labelled();
   LabelledPart part;

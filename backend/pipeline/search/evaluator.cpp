@@ -163,7 +163,8 @@ class Evaluator::Work {
       Draft draft;
       const Association association = gridded(plan, options_.divisions, draft);
       std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_); });
-      const int padded = static_cast<int>(choices[promising(choices)].mesh.hexes.size());
+      const PaddedMesh& chosen = choices[promising(choices)];
+      const auto padded = static_cast<int>(count_refined(chosen.mesh, chosen.association, places_of(draft, chosen.association), kAllLevels, monitor_));
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
       if (round > 0 && miss(padded) >= miss(cells)) break;
       cells = padded;
@@ -362,7 +363,7 @@ class Evaluator::Work {
   bool saves_cells(const Draft& draft, const Association& association) const {
     const RefinePlan plan = bores_of(draft, association);
     if (plan.empty()) return false;
-    const auto cells = static_cast<double>(count_refined(draft.complex.mesh, association, plan, monitor_));
+    const auto cells = static_cast<double>(count_refined(draft.complex.mesh, association, plan, 1, monitor_));
     const bool saves = cells < kLocalShare * whole_cells_;
     monitor_.log("refine: " + std::to_string(plan.round.size()) + " bores by themselves would take about " + std::to_string(std::lround(cells)) +
                  " cells, the grid of the whole part " + std::to_string(std::lround(whole_cells_)) + (saves ? ": by themselves" : ": by the grid"));
@@ -371,6 +372,13 @@ class Evaluator::Work {
 
   RefinePlan bores_of(const Draft& draft, const Association& association) const {
     return plan_for_bores(round_edges(model_, effective_per_circle(options_)), draft.levels, association, model_.edge_count());
+  }
+
+  // All that is to be refined locally.
+  RefinePlan places_of(const Draft& draft, const Association& association) const {
+    RefinePlan plan = bores_of(draft, association);
+    plan.everywhere = options_.refine;
+    return plan;
   }
 
   Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
@@ -505,7 +513,7 @@ class Evaluator::Work {
     draft.padded = std::move(choices[chosen]);
     draft.parent.clear();
     draft.refine_warnings.clear();
-    if (draft.fitted.inverted == 0) refine_places(draft, fit_options);
+    if (draft.fitted.inverted == 0) refine_places(draft);
     for (const WorstCell& cell : worst_cells(draft.padded.mesh, draft.padded.association, 3)) {
       std::string line = "fit: cell at";
       for (double x : own_.pose_.back(cell.centre)) line += " " + std::to_string(x);
@@ -516,11 +524,10 @@ class Evaluator::Work {
   }
 
   // Locally, where the mesh of the whole part is good.
-  void refine_places(Draft& draft, const FitOptions& fit_options) {
-    RefinePlan plan = bores_of(draft, draft.padded.association);
-    plan.everywhere = options_.refine;
+  void refine_places(Draft& draft) {
+    const RefinePlan plan = places_of(draft, draft.padded.association);
     if (plan.empty()) return;
-    LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_, draft.padded, plan, fit_options, monitor_); });
+    LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_, draft.padded, plan, fit_options(), monitor_); });
     draft.unrefined = std::exchange(draft.padded, std::move(refined.padded));
     draft.parent = std::move(refined.parent);
     draft.refine_warnings = std::move(refined.warnings);

@@ -77,10 +77,11 @@ TEST_F(Sessions, LabelsOnTheSameTets) {
 // What is told beforehand is what comes, where the first plan gives the mesh.
 TEST_F(Sessions, CountWithoutAFit) {
   Session session(plate_, {});
-  MeshOptions divided = of_size(3), counted;
+  MeshOptions divided = of_size(3), refined = of_size(8), counted;
   divided.divisions = {{1, {}, 7, 7}};
+  refined.refine = {{{1, 1}, 2}};
   counted.hexes = 900;
-  for (const MeshOptions& options : {MeshOptions(), of_size(2), divided, counted}) {
+  for (const MeshOptions& options : {MeshOptions(), of_size(2), divided, refined, counted}) {
     const int told = session.count(options, Monitor());
     const int made = session.mesh(options, Monitor()).report.hexes;
     EXPECT_NEAR(told, made, 0.15 * made);

@@ -178,6 +178,12 @@ double Assembly::volume() const {
 }
 
 std::vector<int> Assembly::faces() const { return all_numbers(solids, &CadModel::faces); }
+std::vector<std::string> Assembly::all_warnings() const {
+  std::vector<std::string> all = warnings;
+  for (const CadModel& solid : solids) all.insert(all.end(), solid.warnings().begin(), solid.warnings().end());
+  return all;
+}
+
 std::vector<int> Assembly::edges() const { return all_numbers(solids, &CadModel::edges); }
 std::vector<int> Assembly::vertices() const { return all_numbers(solids, &CadModel::vertices); }
 

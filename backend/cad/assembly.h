@@ -36,6 +36,7 @@ struct Assembly {
   std::vector<int> faces() const;  ///< numbers of all solids' faces, ascending
   std::vector<int> edges() const;
   std::vector<int> vertices() const;
+  std::vector<std::string> all_warnings() const;  ///< of the whole and of its solids
 
  private:
   static Assembly of(const FileShape& read, const ReadOptions& options, const Monitor& monitor);

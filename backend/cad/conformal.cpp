@@ -1,21 +1,28 @@
 #include "cad/conformal.h"
 
 #include <BRepLib.hxx>
+#include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
+#include <TopoDS_Edge.hxx>
 #include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
+#include <TopoDS_Vertex.hxx>
+#include <TopoDS_Wire.hxx>
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 
 #include "cad/fuse.h"
 #include "cad/occt.h"
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -135,6 +142,80 @@ std::vector<int> origins_of(GeneralFuse& fuse, const CadModel& solid, const Topo
   return origin;
 }
 
+/// Entities by the numbers before, each as the first solid that had it.
+std::vector<CadRef> before(int dim, const std::set<int>& joined, const std::vector<Origin>& origins) {
+  std::vector<CadRef> entities;
+  for (const int id : joined) {
+    for (const Origin& origin : origins) {
+      const int number = (dim == 1 ? origin.edges : origin.vertices)[static_cast<std::size_t>(id)];
+      if (number == 0) continue;
+      entities.push_back({dim, number});
+      break;
+    }
+  }
+  std::sort(entities.begin(), entities.end());
+  entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
+  return entities;
+}
+
+/// Joins the ends of edges (twice the edge, and one for its end) that follow each other round a face.
+void join_corners(const TopoDS_Face& face, const Maps& maps, UnionFind& ends) {
+  const auto number = [&](const TopoDS_Shape& edge) { return 2 * maps[1].FindIndex(edge); };
+  for (TopExp_Explorer wire(face, TopAbs_WIRE); wire.More(); wire.Next()) {
+    std::vector<TopoDS_Edge> round;
+    for (BRepTools_WireExplorer it(TopoDS::Wire(wire.Current()), face); it.More(); it.Next()) round.push_back(it.Current());
+    int edges = 0;
+    for (TopExp_Explorer it(wire.Current(), TopAbs_EDGE); it.More(); it.Next()) ++edges;
+    if (edges != static_cast<int>(round.size())) {  // OpenCASCADE does not find its way round: taken for one fan
+      for (TopExp_Explorer one(wire.Current(), TopAbs_EDGE); one.More(); one.Next())
+        for (TopExp_Explorer other(wire.Current(), TopAbs_EDGE); other.More(); other.Next())
+          for (const int a : {0, 1})
+            for (const int b : {0, 1}) ends.unite(number(one.Current()) + a, number(other.Current()) + b);
+      continue;
+    }
+    for (std::size_t i = 0; i < round.size(); ++i) {
+      const TopoDS_Edge &edge = round[i], &next = round[(i + 1) % round.size()];
+      ends.unite(number(edge) + (edge.Orientation() != TopAbs_REVERSED), number(next) + (next.Orientation() == TopAbs_REVERSED));
+      if (BRep_Tool::Degenerated(edge)) ends.unite(number(edge), number(edge) + 1);
+    }
+  }
+}
+
+/// Solids that meet in faces may touch along a line or in a point elsewhere: there the outside of them all is no surface.
+void refuse_pinched(const TopoDS_Solid& outer, const Maps& maps, const std::vector<Origin>& origins) {
+  std::map<int, std::set<int>> faces_at;  // per edge
+  UnionFind ends(static_cast<std::size_t>(2 * maps[1].Extent()) + 2);
+  for (TopExp_Explorer face(outer, TopAbs_FACE); face.More(); face.Next()) {
+    for (TopExp_Explorer edge(face.Current(), TopAbs_EDGE); edge.More(); edge.Next())
+      faces_at[maps[1].FindIndex(edge.Current())].insert(maps[2].FindIndex(face.Current()));
+    join_corners(TopoDS::Face(face.Current()), maps, ends);
+  }
+  std::set<int> lines, points;
+  for (const auto& [edge, faces] : faces_at)
+    if (faces.size() > 2) lines.insert(edge);
+  if (!lines.empty())
+    throw StageFailed("interfaces", "the solids together make no solid: more than two faces meet where they touch along a line only",
+                      before(1, lines, origins));
+  // The faces round a vertex are one fan where corners join the ends of all edges there.
+  std::map<int, int> fan;
+  std::map<int, std::set<int>> edges_at;
+  for (const auto& [edge, faces] : faces_at) {
+    TopoDS_Vertex vertices[2];
+    TopExp::Vertices(TopoDS::Edge(maps[1](edge)), vertices[0], vertices[1]);
+    for (const int end : {0, 1}) {
+      if (vertices[end].IsNull()) continue;
+      const int v = maps[0].FindIndex(vertices[end]), root = ends.find(2 * edge + end);
+      edges_at[v].insert(edge);
+      if (fan.try_emplace(v, root).first->second != root) points.insert(v);
+    }
+  }
+  if (points.empty()) return;
+  for (const int v : points) lines.insert(edges_at[v].begin(), edges_at[v].end());
+  const std::vector<CadRef> known = before(0, points, origins);
+  throw StageFailed("interfaces", "the solids together make no solid: their outside touches itself in a point only",
+                    known.empty() ? before(1, lines, origins) : known);
+}
+
 std::shared_ptr<const CadModel::Shape> outer_model(const TopoDS_Solid& outer, const Maps& maps, const Monitor& monitor) {
   const Numbering numbers = numbering_in(maps, outer);
   try {
@@ -173,8 +254,9 @@ class ConformalBuilder {
       origins.push_back(
           {origins_of(fuse, before[s], shape, 2, maps[2]), origins_of(fuse, before[s], shape, 1, maps[1]), origins_of(fuse, before[s], shape, 0, maps[0])});
     }
-    ConformalModel model{
-        CadModel(merged(compound, maps, solids)), CadModel(outer_model(outer_solid(after, maps, solids_of_face), maps, monitor)), solids, origins, chosen, {}};
+    const TopoDS_Solid outer = outer_solid(after, maps, solids_of_face);
+    refuse_pinched(outer, maps, origins);
+    ConformalModel model{CadModel(merged(compound, maps, solids)), CadModel(outer_model(outer, maps, monitor)), solids, origins, chosen, {}};
     for (std::size_t f = 1; f < solids_of_face.size(); ++f)
       if (solids_of_face[f].size() == 2) model.interfaces.push_back({static_cast<int>(f), {solids_of_face[f][0], solids_of_face[f][1]}});
     return model;

@@ -23,7 +23,7 @@ struct ConformalModel {
 };
 
 /// Joins those solids of an assembly (numbers from 1, ascending). Throws StageFailed("interfaces", ...) where they do not make one solid: where they meet in an
-/// edge or a vertex only.
+/// edge or a vertex only, with those by their numbers in the assembly.
 ConformalModel conform(const Assembly& assembly, const std::vector<int>& solids, const Monitor& monitor);
 
 }  // namespace polycube

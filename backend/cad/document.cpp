@@ -92,6 +92,9 @@ void collect_links(const Tree& property, std::set<std::string>& links) {
   }
 }
 
+// Of a link, after its name.
+constexpr const char* kLink = ", which is a link: the workbench in FreeCAD follows links, a STEP file holds what they lead to";
+
 /// Of an object that FreeCAD could not compute, or has not.
 class NoShape : public InvalidInput {
  public:
@@ -182,6 +185,7 @@ class Document {
     for (const DocumentObject& o : objects_)
       if (!object && o.label == wanted) object = &o;
     if (!object) return {};
+    if (is_link(*object)) throw InvalidInput(path_ + ": " + object->title() + kLink);
     return object->shape_file.empty() ? finals(object->name, monitor) : std::vector<const DocumentObject*>{object};
   }
 
@@ -272,6 +276,7 @@ class Document {
   std::vector<const DocumentObject*> finals(const std::string& container, const Monitor& monitor) {
     std::vector<const DocumentObject*> solids, surfaces;
     for (const DocumentObject& object : objects_) {
+      if (is_link(object) && (container.empty() || inside(object, container))) leave_out(object.title() + kLink);
       // Of a body the body itself counts: what is in it are steps towards its tip.
       if ((object.shape_file.empty() && !object.is_body()) || !object.body.empty()) continue;
       if (!container.empty() && !inside(object, container)) continue;
@@ -301,13 +306,27 @@ class Document {
     return found;
   }
 
+  /// The file holds no shape of a link.
+  bool is_link(const DocumentObject& object) {
+    if (!object.type.starts_with("App::Link") || !object.shape_file.empty()) return false;
+    return std::any_of(object.links.begin(), object.links.end(), [&](const std::string& name) {
+      const DocumentObject* target = find(name);
+      return target && (!target->shape_file.empty() || target->has_coordinates() || target->type.starts_with("App::Link"));
+    });
+  }
+
+  void leave_out(const std::string& what) {
+    const std::string line = "left out: " + what;
+    if (std::find(left_out_.begin(), left_out_.end(), line) == left_out_.end()) left_out_.push_back(line);
+  }
+
   /// An object whose shape is damaged, or that was to be made of one found and is not there, may be the part: it is not passed over without a word.
   void note_unreadable(const std::vector<const DocumentObject*>& found) {
     for (const Unreadable& u : unreadable_) {
       const std::set<std::string> sources = built_from(*u.object);
       const bool replaced = std::any_of(found.begin(), found.end(), [&](const DocumentObject* object) { return sources.contains(object->name); });
       if (!found.empty() && (!u.empty || replaced)) throw InvalidInput(u.reason + "; another can be chosen with --object (" + titles(found) + ")");
-      left_out_.push_back("left out: " + u.object->title() + ", which has no shape");
+      leave_out(u.object->title() + ", which has no shape");
     }
   }
 

@@ -267,8 +267,11 @@ FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Mon
     return sew(read, monitor);
   }
   FoundSolid found{shape, {}, {}};
+  int times = 0;
+  for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) ++times;
+  if (times > 1) found.warnings.push_back("the solid is in the shape " + std::to_string(times) + " times; it is meshed once");
   const int edges = count(shape, TopAbs_EDGE, TopAbs_FACE), vertices = count(shape, TopAbs_VERTEX, TopAbs_EDGE);
-  if (count(shape, TopAbs_FACE, TopAbs_SOLID) + edges + vertices > 0) {
+  if (times > 1 || count(shape, TopAbs_FACE, TopAbs_SOLID) + edges + vertices > 0) {
     found.solid = TopExp_Explorer(shape, TopAbs_SOLID).Current();
     // Faces beside it may be its own, as of a shell that shares them.
     if (std::string left_out = beside(count(shape, TopAbs_FACE) - count(found.solid, TopAbs_FACE), edges, vertices); !left_out.empty())

@@ -109,11 +109,10 @@ struct PartCommand {
     return result;
   }
 
-  /// CadModel for one solid, Assembly for as many as there are.
-  template <class Part>
-  Part read(const MeshOptions& options, const Monitor& monitor) const {
+  /// The part, of as many solids as there are.
+  Assembly read(const MeshOptions& options, const Monitor& monitor) const {
     monitor.progress("cad", 0);
-    return Part::read(part, {.object = object, .sew = options.sew}, monitor);
+    return Assembly::read(part, {.object = object, .sew = options.sew}, monitor);
   }
 
   CLI::App& command;
@@ -139,7 +138,7 @@ struct MeshCommand : PartCommand {
 
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    PartMesh made = mesh_part([&] { return read<Assembly>(options, monitor); }, options, monitor);
+    PartMesh made = mesh_part([&] { return read(options, monitor); }, options, monitor);
     // A mesh that is there is handed out, late or not.
     const Monitor finishing(monitor, finishing_deadline(made.report, monitor));
     const auto write_start = Monitor::Clock::now();
@@ -159,7 +158,8 @@ struct MeshCommand : PartCommand {
 };
 
 struct LabelCommand : PartCommand {
-  explicit LabelCommand(CLI::App& app) : PartCommand(app, "label", "Labels, charts and polycuboid map of a CAD solid, to look at") {
+  explicit LabelCommand(CLI::App& app)
+      : PartCommand(app, "label", "Labels, charts and polycuboid map of a CAD solid, or labels of several that touch, to look at") {
     command.add_option("-o,--output", outputs, "Labelled boundary with charts, feature edges and map (.vtu), or its picture (.png); may be repeated")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -177,16 +177,16 @@ struct LabelCommand : PartCommand {
 
   void run(const Monitor& monitor, Monitor::Clock::time_point start) const {
     const MeshOptions options = arguments.options();
-    const CadModel model = read<CadModel>(options, monitor);
-    polycube::check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
-    const LabelledPart labelled = label_part(model, options, monitor);
+    const Assembly assembly = read(options, monitor);
+    polycube::check(options, assembly.diagonal(), {assembly.faces(), assembly.edges(), assembly.vertices(), static_cast<int>(assembly.solids.size())});
+    const LabelledPart labelled = label_part(assembly, options, monitor);
     const Inspection inspection = inspect(labelled);
     for (const std::string& output : outputs) {
       if (output.ends_with(".vtu")) write_vtu(output, labelled, inspection);
       if (output.ends_with(".png")) write_picture(output, labelled, inspection, picture);
     }
-    if (!report.empty()) write_text(report, report_json(part, model, labelled, inspection));
-    for (const std::string& warning : model.warnings()) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
+    if (!report.empty()) write_text(report, report_json(part, assembly, labelled, inspection));
+    for (const std::string& warning : assembly.all_warnings()) std::cerr << "polycube: warning: " << one_line(warning) << "\n";
     if (labelled.failure) std::cerr << "polycube: warning: no map, stage " << labelled.failure->stage() << ": " << one_line(labelled.failure->what()) << "\n";
     const Violations& v = inspection.violations;
     const EdgeTable edges = edge_table(labelled);

@@ -170,10 +170,8 @@ void limit_time(Monitor& monitor, const MeshOptions& options) {
     monitor.set_deadline(Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
 }
 
-/// CadModel for one solid, Assembly for as many as there are.
-template <class Part>
-Part read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
-  return Part::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
+Assembly read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
+  return Assembly::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
 }
 
 void work(const std::string& folder, JobKind kind) {
@@ -181,10 +179,10 @@ void work(const std::string& folder, JobKind kind) {
   Monitor monitor;
   const Voice voice(monitor, folder);
   limit_time(monitor, options);
-  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape<Assembly>(folder, options, monitor); }, options, monitor));
-  const CadModel model = read_shape<CadModel>(folder, options, monitor);
-  check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
-  save_labels(folder, label_part(model, options, monitor, Until::kLabels), model.face_count());
+  if (kind == JobKind::kMesh) return save_mesh(folder, mesh_part([&] { return read_shape(folder, options, monitor); }, options, monitor));
+  const Assembly assembly = read_shape(folder, options, monitor);
+  check(options, assembly.diagonal(), {assembly.faces(), assembly.edges(), assembly.vertices(), static_cast<int>(assembly.solids.size())});
+  save_labels(folder, label_part(assembly, options, monitor, Until::kLabels), assembly.faces().back());
 }
 
 int leave_error(const std::string& folder, Status status, const char* kind, const std::exception& error, Json more = Json::object()) {
@@ -211,17 +209,17 @@ int attempt(const std::string& folder, const std::function<void()>& do_work) {
 }
 
 /// What a line of a session asks for, in `folder`.
-void serve_request(Session& session, const std::string& kind, const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
+void serve_request(AssemblySession& session, const std::string& kind, const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
   if (kind == "count") return write_text(folder + "/count.json", dump({{"hexes", session.count(options, monitor)}}) + "\n");
-  if (kind == "polycube") return save_labels(folder, session.labels(options, monitor, Until::kMap), session.model().face_count());
-  if (job_kind(kind) == JobKind::kLabels) return save_labels(folder, session.labels(options, monitor), session.model().face_count());
-  save_mesh(folder, mesh_part(session, options, monitor));
+  if (kind == "polycube") return save_labels(folder, session.labels(options, monitor, Until::kMap), session.face_count());
+  if (job_kind(kind) == JobKind::kLabels) return save_labels(folder, session.labels(options, monitor), session.face_count());
+  save_mesh(folder, session.mesh(options, monitor));
 }
 
 /// Does one request after the other, as lines on standard input ask for them, until it ends. The first has the shape read and brings the session's first
 /// options.
 void serve_session(const std::string& folder) {
-  std::unique_ptr<Session> session;
+  std::unique_ptr<AssemblySession> session;
   for (std::string line; std::getline(std::cin, line);) {
     std::istringstream words(line);
     std::string name, kind = "mesh";
@@ -232,7 +230,7 @@ void serve_session(const std::string& folder) {
       Monitor monitor;
       const Voice voice(monitor, own);
       limit_time(monitor, options);
-      if (!session) session = std::make_unique<Session>(read_shape<CadModel>(folder, options, monitor), options);
+      if (!session) session = std::make_unique<AssemblySession>(read_shape(folder, options, monitor), options);
       serve_request(*session, kind, own, options, monitor);
     });
     std::printf("%s\n", dump({{"done", status}}).c_str());

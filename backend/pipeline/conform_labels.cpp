@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "core/charts.h"
 #include "core/sorted.h"
@@ -75,6 +76,19 @@ class Skin {
     segments_ = view.inner_segments;
     edge_ = view.inner_segment_edge;
     code_ = with_labels(solid, view, labels);
+  }
+
+  /// Faces of a solid that others have given one label all over, as it sees them.
+  FaceLabels given_by_others(int solid) const {
+    std::map<int, std::set<int>> found;
+    for (const int code : code_) found[face_in(code)].insert(label_in(code));
+    FaceLabels labels;
+    for (const int f : model_.solids[static_cast<std::size_t>(solid)].faces()) {
+      const auto at = found.find(f);
+      if (at == found.end() || at->second.size() != 1 || *at->second.begin() < 0) continue;
+      labels.emplace_back(f, seen_from(f) == solid ? *at->second.begin() : *at->second.begin() ^ 1);
+    }
+    return labels;
   }
 
   /// The labels of a view as they would be taken.
@@ -166,7 +180,8 @@ class Skin {
 
 }  // namespace
 
-ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, int attempt, const Monitor& monitor) {
+ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, const GivenLabels& given, int attempt,
+                                  const Monitor& monitor) {
   Skin skin(model, tets);
   // Those with most faces first: the others are more likely to follow.
   std::vector<int> order(model.solids.size());
@@ -179,8 +194,12 @@ ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& te
     const CadModel& solid = model.solids[static_cast<std::size_t>(s)];
     const TetMesh view = skin.view(s);
     LabelOptions own = options;
-    std::erase_if(own.face_labels, [&](const auto& label) { return !has(solid.faces(), label.first); });
-    LabelChoice choice(solid, view, own, {options.frame}, std::vector<char>(static_cast<std::size_t>(solid.edge_count()) + 1, 0), monitor);
+    own.face_labels = given.faces[static_cast<std::size_t>(s)];
+    for (const auto& label : skin.given_by_others(s))
+      if (std::none_of(own.face_labels.begin(), own.face_labels.end(), [&](const auto& known) { return known.first == label.first; }))
+        own.face_labels.push_back(label);
+    std::sort(own.face_labels.begin(), own.face_labels.end());
+    LabelChoice choice(solid, view, own, {options.frame}, given.left_out, monitor);
     const std::vector<LabelVariant>& variants = choice.order();
     const Labelled& chosen = choice.labelled(variants[static_cast<std::size_t>(attempt) % variants.size()]);
     faults += find_violations(chosen.mesh, options.frame, skin.agreed(s, chosen.mesh, chosen.labelling.label)).score;

@@ -3,6 +3,7 @@
 
 #include "cad/conformal.h"
 #include "core/monitor.h"
+#include "core/options.h"
 #include "label/label.h"
 
 namespace polycube {
@@ -14,8 +15,15 @@ struct ConformalLabels {
   double faults = 0;             ///< Violations::score, summed over the solids, each with all of its boundary
 };
 
-/// `attempt`: which of the labellings of every solid is taken, 0 the best by itself. `options`: frame and labels of faces given.
-ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, int attempt, const Monitor& monitor);
+/// What is given: labels of faces per solid, as it sees them, and per joined edge whether it is left out.
+struct GivenLabels {
+  std::vector<FaceLabels> faces;
+  std::vector<char> left_out;
+};
+
+/// `attempt`: which of the labellings of every solid is taken, 0 the best by itself. Of `options` the labels of faces do not count.
+ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, const GivenLabels& given, int attempt,
+                                  const Monitor& monitor);
 
 /// Charts (sign 0) of the interfaces, connected triangles of one label each: their nodes stand on one plane of the map.
 struct InterfaceCharts {

@@ -15,10 +15,15 @@
 #include "pad/associate.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/bounds.h"
+#include "pipeline/conform_demands.h"
 #include "pipeline/conform_grid.h"
 #include "pipeline/conform_labels.h"
+#include "pipeline/conform_pad.h"
 #include "pipeline/gate.h"
+#include "pipeline/integers.h"
+#include "pipeline/loose_nodes.h"
 #include "pipeline/realise.h"
+#include "pipeline/shortfalls.h"
 #include "pipeline/solids.h"
 #include "pipeline/stage_clock.h"
 #include "pipeline/structures.h"
@@ -32,10 +37,15 @@ namespace {
 // Labellings that are tried until one has a complete mesh with good cells, and paddings of each that are fitted (as a quick search of one solid tries).
 constexpr int kLabellings = 4;
 constexpr int kFits = 3;
+// Ways to lay layers through several solids that are fitted (on 8 parts the first was the best each time).
+constexpr std::size_t kAcross = 1;
 // eta of section 6.2 for the coarsest mesh.
 constexpr double kCoarsest = 1e-6;
 // A labelling whose worst cell is as good as this ends the search (good_cells of one solid asks for no more).
 constexpr double kGood = 0.2;
+// As for one solid (search/evaluator.cpp): how far off a number of cells may be with padding, and how often it is tried to come nearer.
+constexpr double kPaddedMiss = 0.1;
+constexpr int kRecounts = 2;
 
 double typical_edge(const HexMesh& mesh) {
   double sum = 0;
@@ -43,6 +53,18 @@ double typical_edge(const HexMesh& mesh) {
     sum += (mesh.points[h[0]] - mesh.points[h[1]]).norm() + (mesh.points[h[0]] - mesh.points[h[3]]).norm() + (mesh.points[h[0]] - mesh.points[h[4]]).norm();
   return sum / (3.0 * static_cast<double>(mesh.hexes.size()));
 }
+
+/// What does not depend on sizes and counts.
+struct Base {
+  TetMesh tets;
+  InterfaceCharts between;
+  Features features;
+  PolycuboidMap map;
+  BlockComplex blocks;
+  std::vector<int> block_solid;
+  std::vector<DistanceConstraint> walls;
+  DemandPlaces places;
+};
 
 struct Draft {
   JoinedGrids joined;
@@ -52,6 +74,7 @@ struct Draft {
   std::vector<int> padded_hexes;  ///< per solid
   Quantization quantization;
   int charts = 0, blocks = 0;
+  double grid_hexes = 0;  ///< before padding
   int lost() const {
     int sum = 0;
     for (const PaddedMesh& s : solids) sum += static_cast<int>(s.association.lost_edges.size());
@@ -62,16 +85,22 @@ struct Draft {
 class Conformer {
  public:
   Conformer(const ConformalModel& model, const Assembly& assembly, const MeshOptions& options, const Monitor& monitor)
-      : model_(model), assembly_(assembly), options_(options), monitor_(monitor), clock_(monitor), size_(size_of()) {}
+      : model_(model),
+        assembly_(assembly),
+        options_(options_of_unit(options, model, assembly)),
+        monitor_(monitor),
+        clock_(monitor),
+        size_(size_of()),
+        given_{{}, ignored_edges(options_, model)} {}
 
   ConformalMesh run() {
-    refuse_demands();
+    check_demands(options_, model_, assembly_, size_);
     tets_ = clock_.stage("tet", [&] { return tetrahedralise(model_.whole, model_.solids, tet_options(size_, model_.outer.diagonal()), monitor_); });
-    const Mat3 frame = options_.frame.empty() ? find_frame(model_.outer) : frame_of(options_.frame);
+    const Mat3 frame = options_.frame.empty() ? find_frame(model_.whole) : frame_of(options_.frame);
     LabelOptions label = label_options(options_);
-    label.face_labels = fused_labels();
     label.frame_given = true;
     label.frame = frame;
+    given_.faces = labels_by_solid(options_.labels, model_, tets_, frame);
     std::optional<Draft> best;
     std::optional<StageFailed> failure;
     std::set<std::array<std::vector<int>, 2>> known;
@@ -79,7 +108,7 @@ class Conformer {
     for (int i = 0; i < kLabellings; ++i) {
       try {
         ++tried;
-        const ConformalLabels labels = clock_.stage("label", [&] { return label_conformally(model_, tets_, label, i, monitor_); });
+        const ConformalLabels labels = clock_.stage("label", [&] { return label_conformally(model_, tets_, label, given_, i, monitor_); });
         if (!known.insert({labels.labelling.label, labels.inner_label}).second) continue;
         Draft draft = drafted(labels);
         const auto rank = [](const Draft& d) { return std::pair(-d.lost(), d.fitted.min_scaled_jacobian); };
@@ -104,30 +133,6 @@ class Conformer {
     return effective_size(options_, assembly_.diagonal());
   }
 
-  void refuse_demands() const {
-    const bool by_entity = std::any_of(options_.sizes.begin(), options_.sizes.end(), [](const LocalSize& s) { return s.solid == 0; }) ||
-                           std::any_of(options_.divisions.begin(), options_.divisions.end(), [](const Division& d) { return d.solid == 0; });
-    if (by_entity || !options_.bias.empty())
-      throw InvalidInput(
-          "--bias, --sizes and --divisions of faces, edges and axes go with --interfaces separate only; those of solids go with common nodes too");
-    if (!options_.refine.empty()) throw InvalidInput("--refine goes with --interfaces separate only: the solids touch");
-    if (options_.feature_angle > 0) throw InvalidInput("--feature-angle goes with --interfaces separate only");
-  }
-
-  /// A label of the assembly's face is one of all faces that it became.
-  FaceLabels fused_labels() const {
-    FaceLabels labels;
-    for (const auto& [face, label] : options_.labels) {
-      for (const Origin& origin : model_.origins)
-        for (std::size_t f = 1; f < origin.faces.size(); ++f)
-          if (origin.faces[f] == face && std::binary_search(model_.outer.faces().begin(), model_.outer.faces().end(), static_cast<int>(f)))
-            labels.emplace_back(static_cast<int>(f), label);
-    }
-    std::sort(labels.begin(), labels.end());
-    labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
-    return labels;
-  }
-
   /// What is asked of a solid, by its number in the assembly.
   MeshOptions of_solid(std::size_t s) const {
     MeshOptions own = options_;
@@ -137,22 +142,20 @@ class Conformer {
     return without_solids(own);
   }
 
-  QuantizeOptions asked(BlockComplex& blocks, const PolycuboidMap& map, const std::vector<int>& block_solid) const {
-    QuantizeOptions result;
-    result.scale = options_.coarsest ? kCoarsest : 1 / size_;
+  /// Cells through the walls of each solid, and places with the sizes of the solids.
+  void place_demands(Base& base) const {
     std::vector<int> layers;
     std::vector<char> may_yield;
-    std::vector<double> scale;
+    std::vector<double> size;
     for (std::size_t s = 0; s < model_.solids.size(); ++s) {
       const MeshOptions own = of_solid(s);
       layers.push_back(effective_min_layers(own));
       may_yield.push_back(own.min_layers == 0);
-      scale.push_back(own.size > 0 && !options_.coarsest ? size_ / own.size : 1.0);
+      size.push_back(options_.coarsest ? 0 : own.size);
     }
-    result.constraints = part_at_interfaces(blocks, map, block_solid, layers, may_yield);
-    if (std::any_of(scale.begin(), scale.end(), [](double x) { return x != 1; }))
-      for (const int s : block_solid) result.block_scale.push_back(scale[static_cast<std::size_t>(s)]);
-    return result;
+    base.walls = part_at_interfaces(base.blocks, base.map, base.block_solid, layers, may_yield);
+    base.places = find_places(model_, assembly_, base.tets, base.map, base.blocks, base.block_solid, base.between.chart);
+    for (const int s : base.block_solid) base.places.block_size.push_back(size[static_cast<std::size_t>(s)]);
   }
 
   /// CAD edges where interfaces end: the charts of these hold them.
@@ -163,43 +166,172 @@ class Conformer {
     return edges;
   }
 
-  Draft drafted(const ConformalLabels& labels) {
-    Draft draft;
-    const TetMesh& tets = labels.mesh;
-    const InterfaceCharts between = interface_charts(labels);
-    Features features = clock_.stage("label", [&] { return find_features(model_.outer, tets, labels.labelling, interface_edges(), monitor_); });
+  /// Demands on single faces and edges alone.
+  MeshOptions by_entity(const Divisions& divisions) const {
+    MeshOptions own = options_;
+    own.divisions = divisions;
+    own.min_layers = 0;
+    std::erase_if(own.divisions, [](const Division& d) { return d.solid > 0; });
+    std::erase_if(own.sizes, [](const LocalSize& l) { return l.solid > 0; });
+    return own;
+  }
+
+  Base based(const ConformalLabels& labels) {
+    Base base;
+    base.tets = labels.mesh;
+    base.between = interface_charts(labels);
+    base.features = clock_.stage("label", [&] { return find_features(model_.outer, base.tets, labels.labelling, left_out(), monitor_); });
     DeformOptions deform_options;
     deform_options.merge = merge_distance(size_, model_.outer.diagonal());
     deform_options.threads = thread_count(options_.threads);
-    const RealisedMap realised =
-        clock_.stage("deform", [&] { return realise(model_.outer, tets, labels.labelling, features, deform_options, monitor_, between.charts); });
-    const PolycuboidMap& map = realised.map;
-    monitor_.log("deform: " + std::to_string(map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
-                 std::to_string(tets.tets.size()) + " tets");
-    BlockComplex blocks = clock_.stage("blocks", [&] { return extract_blocks(tets, map, monitor_); });
-    const std::vector<int> block_solid = solids_of_blocks(tets, map, blocks);
-    draft.quantization = clock_.stage("quantize", [&] {
-      QuantizeOptions demanded = asked(blocks, map, block_solid);
-      const auto add = [&](const std::vector<DistanceConstraint>& more) { demanded.constraints.insert(demanded.constraints.end(), more.begin(), more.end()); };
-      const std::vector<char> held = interface_edges();
-      auto chains = edge_chains(model_.outer, tets);
-      add(room_for_vertices(model_.outer, tets, map, blocks, chains, std::vector<char>(held.size(), 0)));
-      for (const FeatureEdge& e : features.edges)
-        if (e.capture == EdgeCapture::kLost && !held[static_cast<std::size_t>(e.edge)]) chains[e.edge].clear();
-      add(part_bounds(model_.outer, tets, map, blocks, chains, options_));
-      return quantize(blocks, map, demanded, monitor_);
+    RealisedMap realised = clock_.stage(
+        "deform", [&] { return realise(model_.outer, base.tets, labels.labelling, base.features, deform_options, monitor_, base.between.charts); });
+    base.map = std::move(realised.map);
+    monitor_.log("deform: " + std::to_string(base.map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
+                 std::to_string(base.tets.tets.size()) + " tets");
+    base.blocks = clock_.stage("blocks", [&] { return extract_blocks(base.tets, base.map, monitor_); });
+    base.block_solid = solids_of_blocks(base.tets, base.map, base.blocks);
+    place_demands(base);
+    return base;
+  }
+
+  /// Joined edges without feature charts: where interfaces end, and those that the user does without.
+  std::vector<char> left_out() const {
+    std::vector<char> edges = interface_edges();
+    for (std::size_t e = 0; e < edges.size(); ++e) edges[e] |= given_.left_out[e];
+    return edges;
+  }
+
+  Draft drafted(const ConformalLabels& labels) {
+    const Base base = based(labels);
+    Draft draft = gridded(base, options_.divisions, 1);
+    if (options_.hexes > 0) recount(base, draft);
+    retry_padded(base, draft);
+    return draft;
+  }
+
+  /// Another try is a gain where it works out at all.
+  std::optional<Draft> again(const Base& base, const Divisions& divisions, double share, const std::string& how) {
+    try {
+      return gridded(base, divisions, share);
+    } catch (const StageFailed& e) {
+      monitor_.log("conform: with " + how + ": " + e.stage() + ": " + e.what());
+    } catch (const InvalidInput& e) {
+      monitor_.log("conform: with " + how + ": " + e.what());
+    }
+    return std::nullopt;
+  }
+
+  double wanted_cells() const {
+    double volume = 0;
+    for (const CadModel& solid : model_.solids) volume += solid.volume();
+    return options_.hexes * volume / assembly_.volume();
+  }
+
+  /// Where padding takes the number of cells away from the one asked for, a grid with its share of them.
+  void recount(const Base& base, Draft& draft) {
+    const auto cells = [](const Draft& d) { return static_cast<double>(d.joined.whole.mesh.hexes.size()); };
+    const auto miss = [&](const Draft& d) { return std::abs(cells(d) / wanted_cells() - 1); };
+    for (int round = 0; round < kRecounts && miss(draft) > kPaddedMiss; ++round) {
+      std::optional<Draft> next = again(base, options_.divisions, draft.grid_hexes / cells(draft), "another number of cells");
+      if (!next || miss(*next) >= miss(draft)) return;
+      draft = std::move(*next);
+    }
+  }
+
+  /// Padding can add cells to a division that has a maximum: fewer are asked for then.
+  void retry_padded(const Base& base, Draft& draft) {
+    const Divisions fewer = allow_for_padding(draft);
+    if (fewer == options_.divisions) return;
+    std::optional<Draft> next = again(base, fewer, 1, "fewer divisions");
+    if (next && unmet(*next).size() < unmet(draft).size()) draft = std::move(*next);
+  }
+
+  /// The first solid that has what a division is of, in all.
+  bool is_of(const Division& d, std::size_t s) const {
+    const auto owns = [&](std::size_t solid) {
+      const CadModel& cad = assembly_.solids[static_cast<std::size_t>(model_.numbers[solid]) - 1];
+      const auto has = [](const std::vector<int>& numbers, int id) { return std::binary_search(numbers.begin(), numbers.end(), id); };
+      return d.solid == 0 && (d.edge > 0 ? has(cad.edges(), d.edge) : has(cad.faces(), d.faces[0]) && has(cad.faces(), d.faces[1]));
+    };
+    for (std::size_t before = 0; before < s; ++before)
+      if (owns(before)) return false;
+    return owns(s);
+  }
+
+  Divisions allow_for_padding(const Draft& draft) const {
+    Divisions fewer = options_.divisions;
+    for (std::size_t s = 0; s < draft.solids.size() && !fewer.empty(); ++s) {
+      const Association own = by_origin(draft.solids[s].association, model_.origins[s]);
+      for (Division& d : fewer)
+        if (is_of(d, s)) d = polycube::allow_for_padding(draft.solids[s].mesh, own, {d}).front();
+    }
+    return fewer;
+  }
+
+  std::vector<std::string> unmet(const Draft& draft) const {
+    std::vector<std::string> lines;
+    for (std::size_t s = 0; s < draft.solids.size(); ++s) {
+      Divisions own = options_.divisions;
+      std::erase_if(own, [&](const Division& d) { return !is_of(d, s); });
+      if (own.empty()) continue;
+      const auto more = unmet_divisions(draft.solids[s].mesh, by_origin(draft.solids[s].association, model_.origins[s]), own);
+      lines.insert(lines.end(), more.begin(), more.end());
+    }
+    return lines;
+  }
+
+  /// `share`: of the grid's cells among all, where a number of them is asked for.
+  Quantization quantized(const Base& base, const Divisions& divisions, double share) const {
+    auto chains = edge_chains(model_.outer, base.tets);
+    const MeshOptions demands = by_entity(divisions);
+    IntegerOptions wanted;
+    wanted.scale = options_.coarsest ? kCoarsest : 1 / size_;
+    if (options_.hexes > 0) wanted.wanted_cells = share * wanted_cells();
+    wanted.growth = options_.growth;
+    wanted.coarsest = options_.coarsest;
+    wanted.demanded = [&](double scale) {
+      try {
+        QuantizeOptions asked = quantize_options(base.places, base.tets, base.map, base.blocks, demands, scale);
+        asked.constraints.insert(asked.constraints.end(), base.walls.begin(), base.walls.end());
+        return asked;
+      } catch (const StageFailed& e) {
+        throw as_joined(e, model_);
+      }
+    };
+    wanted.room = room_for_vertices(model_.outer, base.tets, base.map, base.blocks, chains, given_.left_out);
+    const std::vector<char> held = interface_edges();
+    chains = all_edge_chains(model_, base.tets);
+    for (const FeatureEdge& e : base.features.edges)
+      if (e.capture == EdgeCapture::kLost && !held[static_cast<std::size_t>(e.edge)]) chains[e.edge].clear();
+    wanted.bounds = part_bounds(model_.whole, base.tets, base.map, base.blocks, chains, options_);
+    return find_integers(base.blocks, base.map, wanted, monitor_).quantization;
+  }
+
+  Draft gridded(const Base& base, const Divisions& divisions, double share) {
+    Draft draft;
+    draft.quantization = clock_.stage("quantize", [&] { return quantized(base, divisions, share); });
+    const HexComplex hexes = clock_.stage("hex", [&] {
+      const std::vector<int>& value = draft.quantization.value;
+      Spacing spacing = graded_spacing(base.blocks, base.map, value, options_.growth);
+      try {
+        bias_edges(base.places.edge_chains, base.tets, base.map, base.blocks, options_.bias, value, spacing);
+      } catch (const StageFailed& e) {
+        throw as_joined(e, model_);
+      }
+      return build_hexes(base.tets, base.map, base.blocks, draft.quantization, monitor_, spacing);
     });
-    const HexComplex hexes = clock_.stage("hex", [&] { return build_hexes(tets, map, blocks, draft.quantization, monitor_); });
-    monitor_.log("hex: " + std::to_string(blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
-    draft.charts = static_cast<int>(map.charts.size());
-    draft.blocks = static_cast<int>(blocks.blocks.size());
+    monitor_.log("hex: " + std::to_string(base.blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
+    draft.grid_hexes = static_cast<double>(hexes.mesh.hexes.size());
+    draft.charts = static_cast<int>(base.map.charts.size());
+    draft.blocks = static_cast<int>(base.blocks.blocks.size());
     std::vector<int> hex_solid;
-    for (const int b : hexes.hex_block) hex_solid.push_back(block_solid[b]);
+    for (const int b : hexes.hex_block) hex_solid.push_back(base.block_solid[b]);
     std::vector<SolidGrid> grids;
     std::vector<std::vector<PaddedMesh>> choices;
     std::vector<std::vector<int>> added;
-    for (int s = 0; s < static_cast<int>(model_.solids.size()); ++s) pad_solid(s, tets, map, between.chart, hexes, hex_solid, grids, choices, added);
-    fit_choices(draft, grids, choices, added, hexes.mesh.points.size());
+    for (int s = 0; s < static_cast<int>(model_.solids.size()); ++s) pad_solid(s, base, hexes, hex_solid, grids, choices, added);
+    fit_choices(draft, paddings(grids, choices, added, hexes.mesh.points.size()));
     for (const auto& hex_of : draft.joined.hex) draft.hex_block.resize(draft.hex_block.size() + hex_of.size(), -1);
     for (std::size_t s = 0; s < grids.size(); ++s) {
       std::vector<int> own;
@@ -218,15 +350,15 @@ class Conformer {
     return faces;
   }
 
-  void pad_solid(int s, const TetMesh& tets, const PolycuboidMap& map, const std::vector<int>& inner_chart, const HexComplex& hexes,
-                 const std::vector<int>& hex_solid, std::vector<SolidGrid>& grids, std::vector<std::vector<PaddedMesh>>& choices,
-                 std::vector<std::vector<int>>& added) {
+  void pad_solid(int s, const Base& base, const HexComplex& hexes, const std::vector<int>& hex_solid, std::vector<SolidGrid>& grids,
+                 std::vector<std::vector<PaddedMesh>>& choices, std::vector<std::vector<int>>& added) {
     const CadModel& model = model_.solids[s];
     std::vector<int> points;
-    const TetMesh own = tets_of_solid(tets, s, &points);
-    const std::vector<Chart> charts = charts_of_solid(tets, points, own, map, inner_chart);
-    const SolidGrid& grid = grids.emplace_back(grid_of_solid(hexes, hex_solid, s, own, points, map, charts));
+    const TetMesh own = tets_of_solid(base.tets, s, &points);
+    const std::vector<Chart> charts = charts_of_solid(base.tets, points, own, base.map, base.between.chart);
+    const SolidGrid& grid = grids.emplace_back(grid_of_solid(hexes, hex_solid, s, own, points, base.map, charts));
     AssociateOptions how;
+    how.ignored = given_.left_out;
     how.edge_chains = edge_chains(model, own);
     how.size = typical_edge(grid.mesh);
     clock_.stage("pad", [&] {
@@ -250,36 +382,53 @@ class Conformer {
     });
   }
 
-  /// The best of all solids, then the second best of those that have one, and so on; the last is without layers.
-  void fit_choices(Draft& draft, const std::vector<SolidGrid>& grids, const std::vector<std::vector<PaddedMesh>>& choices,
-                   const std::vector<std::vector<int>>& added, std::size_t nodes) {
+  /// The best of all solids, then the second best of those that have one, and so on; the last is without layers. Then layers through several solids on top of
+  /// the first, or of the last where that has none.
+  std::vector<PaddedGrids> paddings(const std::vector<SolidGrid>& grids, const std::vector<std::vector<PaddedMesh>>& choices,
+                                    const std::vector<std::vector<int>>& added, std::size_t nodes) {
     std::size_t most = 1;
     for (const auto& c : choices) most = std::max(most, c.size());
-    std::vector<JoinedGrids> joined;
-    std::vector<std::vector<PaddedMesh>> solids;
+    std::vector<PaddedGrids> result;
     for (std::size_t i = 0; i < most; ++i) {
-      auto& chosen = solids.emplace_back();
-      for (const auto& c : choices) chosen.push_back(c[std::min(i, c.size() - 1)]);
-      joined.push_back(join_grids(model_, grids, chosen, nodes));
+      PaddedGrids& chosen = result.emplace_back();
+      for (std::size_t s = 0; s < choices.size(); ++s) {
+        const std::size_t own = std::min(i, choices[s].size() - 1);
+        chosen.solids.push_back(choices[s][own]);
+        chosen.added_hexes.push_back(added[s][own]);
+      }
+      chosen.joined = join_grids(model_, grids, chosen.solids, nodes);
     }
+    clock_.stage("pad", [&] {
+      for (const std::size_t i : std::set<std::size_t>{0, most - 1}) {
+        std::vector<PaddedGrids> across = pad_across(model_, result[i], monitor_);
+        if (across.size() > kAcross) across.resize(kAcross);
+        for (PaddedGrids& one : across) result.push_back(std::move(one));
+        if (!across.empty()) break;
+      }
+    });
+    monitor_.log("conform: " + std::to_string(most) + " paddings of solids, " + std::to_string(result.size() - most) + " through several");
+    return result;
+  }
+
+  void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
     std::vector<FitCandidate> candidates;
-    for (JoinedGrids& j : joined) candidates.push_back({j.whole.mesh, j.whole.association});
+    for (PaddedGrids& c : choices) candidates.push_back({c.joined.whole.mesh, c.joined.whole.association});
     FitOptions fit_options;
     fit_options.threads = thread_count(options_.threads);
     const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kGood; };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options, kFits, good, monitor_); });
     draft.fitted = best.report;
     monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +
-                 std::to_string(draft.fitted.inverted) + " inverted");
+                 std::to_string(draft.fitted.inverted) + " inverted, choice " + std::to_string(best.index + 1) + " of " + std::to_string(choices.size()));
     if (draft.fitted.inverted > 0) {
       std::vector<CadRef> faces;
       for (const int f : draft.fitted.bad_faces) faces.push_back({2, f});
       throw StageFailed("fit", std::to_string(draft.fitted.inverted) + " cells stay inverted", faces);
     }
-    draft.joined = std::move(joined[best.index]);
-    draft.solids = std::move(solids[best.index]);
+    draft.joined = std::move(choices[best.index].joined);
+    draft.solids = std::move(choices[best.index].solids);
+    draft.padded_hexes = std::move(choices[best.index].added_hexes);
     for (std::size_t s = 0; s < draft.solids.size(); ++s) {
-      draft.padded_hexes.push_back(added[s][std::min(best.index, added[s].size() - 1)]);
       HexMesh& mesh = draft.solids[s].mesh;
       for (std::size_t p = 0; p < mesh.points.size(); ++p) mesh.points[p] = draft.joined.whole.mesh.points[draft.joined.node[s][p]];
       gate(model_.solids[s], draft.solids[s], options_.threads, monitor_);
@@ -307,6 +456,8 @@ class Conformer {
     complete(first, result.fem);
     first.nodes = nodes;
     first.stages = clock_.records();
+    const std::vector<std::string> lines = unmet(draft);
+    first.warnings.insert(first.warnings.end(), lines.begin(), lines.end());
     first.out_of_time = out_of_time_;
     if (out_of_time_) first.warnings.push_back("the time limit ended the search; this is the best mesh so far");
     return result;
@@ -338,53 +489,47 @@ class Conformer {
     if (s == 0)
       r.quantization = {draft.quantization.objective, draft.quantization.bound, draft.quantization.gap(),    draft.quantization.optimal,
                         draft.quantization.nodes,     draft.quantization.cuts,  draft.quantization.c2_rounds};
+    // Counted as the user knows them: an edge of several pieces is one.
+    const Association by_number = by_origin(own.association, model_.origins[s]);
+    const CadModel& before = assembly_.solids[static_cast<std::size_t>(model_.numbers[s]) - 1];
     std::vector<int> real;
-    for (const int e : model.edges())
-      if (!model.edge(e).seam && !model.edge(e).degenerate && !model.edge(e).tiny) real.push_back(e);
-    r.capture = capture(own.association, static_cast<int>(model.vertices().size()), real, static_cast<int>(model.faces().size()));
+    for (const int e : before.edges())
+      if (!before.edge(e).seam && !before.edge(e).degenerate && !before.edge(e).tiny) real.push_back(e);
+    r.capture = capture(by_number, static_cast<int>(before.vertices().size()), real, static_cast<int>(before.faces().size()));
     rename(r, model_.origins[s]);
+    if (!draft.quantization.optimal && s == 0)
+      r.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
+    const MeshOptions asked = of_solid(s);
+    const Shortfalls short_of = find_shortfalls(before, own.mesh, by_number, effective_min_layers(asked), effective_per_circle(asked));
+    r.thin_walls = static_cast<int>(short_of.thin_walls.size());
+    r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
+    for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
+    r.loose_nodes = count_loose_nodes(model, own.association, own.mesh.points);
     for (const int e : r.capture.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
+    const auto one = merged_faces(r.capture, by_number);
+    r.warnings.insert(r.warnings.end(), one.begin(), one.end());
     return r;
   }
 
-  /// Entities by the numbers that the user knows; what the joining made anew has none.
+  /// Faces by the numbers that the user knows.
   static void rename(MeshReport& r, const Origin& origin) {
-    const auto renamed = [](std::vector<int>& numbers, const std::vector<int>& before) {
-      for (int& n : numbers) n = before[static_cast<std::size_t>(n)];
-      std::sort(numbers.begin(), numbers.end());
-      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-      std::erase(numbers, 0);
-    };
-    renamed(r.capture.lost_faces, origin.faces);
-    renamed(r.capture.lost_edges, origin.edges);
-    renamed(r.capture.lost_vertices, origin.vertices);
-    for (WorstCell& cell : r.worst) renamed(cell.faces, origin.faces);
+    for (WorstCell& cell : r.worst) {
+      for (int& f : cell.faces) f = origin.faces[static_cast<std::size_t>(f)];
+      std::sort(cell.faces.begin(), cell.faces.end());
+      cell.faces.erase(std::unique(cell.faces.begin(), cell.faces.end()), cell.faces.end());
+    }
   }
 
   const ConformalModel& model_;
   const Assembly& assembly_;
-  const MeshOptions& options_;
+  const MeshOptions options_;
   const Monitor& monitor_;
   StageClock clock_;
   const double size_;
+  GivenLabels given_;
   TetMesh tets_;
   bool out_of_time_ = false;
 };
-
-/// The faces at fault by the numbers of the assembly.
-StageFailed by_origin(const StageFailed& failure, const ConformalModel& model) {
-  std::vector<CadRef> entities;
-  for (const CadRef& entity : failure.entities()) {
-    for (const Origin& origin : model.origins) {
-      const std::vector<int>& before = entity.dim == 2 ? origin.faces : entity.dim == 1 ? origin.edges : origin.vertices;
-      if (static_cast<std::size_t>(entity.id) < before.size() && before[static_cast<std::size_t>(entity.id)] > 0)
-        entities.push_back({entity.dim, before[static_cast<std::size_t>(entity.id)]});
-    }
-  }
-  std::sort(entities.begin(), entities.end());
-  entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
-  return StageFailed(failure.stage(), failure.what(), entities);
-}
 
 }  // namespace
 

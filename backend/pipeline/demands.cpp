@@ -17,42 +17,18 @@ namespace {
 /// Per block and side the CAD faces there, ascending.
 using SideFaces = std::vector<std::array<std::vector<int>, 6>>;
 
-SideFaces find_side_faces(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& complex) {
-  std::map<Triangle, int> triangle_at;
-  for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) triangle_at[sorted(tets.triangles[t])] = t;
-  std::vector<int> chart_of(tets.triangles.size(), -1);
-  for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
-    for (int t : map.charts[c].triangles) chart_of[t] = c;
+/// The side of a block that a chart lies on, 6 for none: an outer chart, or one between two solids, which has the number of its plane only.
+std::size_t side_on(const BlockComplex& complex, const std::vector<int>& block_solid, int b, const Chart& chart, int c) {
+  const Block& block = complex.blocks[b];
+  const auto outer = std::find(block.side_chart.begin(), block.side_chart.end(), c);
+  if (outer != block.side_chart.end()) return static_cast<std::size_t>(outer - block.side_chart.begin());
+  for (const int end : {0, 1}) {
+    const int side = 2 * chart.axis + end;
+    if (chart.sign == 0 && block.neighbours[side] >= 0 && is_wall(complex, block_solid, b, side) &&
+        block.charts[static_cast<std::size_t>(chart.axis)][static_cast<std::size_t>(end)] == complex.unknown[c])
+      return static_cast<std::size_t>(side);
   }
-  SideFaces result(complex.blocks.size());
-  for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
-    const Block& block = complex.blocks[b];
-    for (int tet : block.tets) {
-      for (int k = 0; k < 4; ++k) {
-        Triangle facet;
-        for (int i = 0, n = 0; i < 4; ++i) {
-          if (i != k) facet[n++] = tets.tets[tet][i];
-        }
-        const auto at = triangle_at.find(sorted(facet));
-        if (at == triangle_at.end()) continue;
-        const auto side = std::find(block.side_chart.begin(), block.side_chart.end(), chart_of[at->second]) - block.side_chart.begin();
-        if (side == 6) continue;
-        // A tet that only reaches into the block has its triangle elsewhere.
-        const Vec3 centre = (map.image[facet[0]] + map.image[facet[1]] + map.image[facet[2]]) / 3;
-        bool inside = true;
-        for (int d = 0; d < 3; ++d) {
-          if (d == side / 2) continue;
-          inside &= centre[d] >= map.charts[block.charts[d][0]].value && centre[d] <= map.charts[block.charts[d][1]].value;
-        }
-        if (inside) result[b][static_cast<std::size_t>(side)].push_back(tets.triangle_face[at->second]);
-      }
-    }
-    for (auto& faces : result[b]) {
-      std::sort(faces.begin(), faces.end());
-      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-    }
-  }
-  return result;
+  return 6;
 }
 
 DistanceConstraint constraint(const PolycuboidMap& map, int a, int b, int at_least, int at_most, const std::string& name) {
@@ -60,16 +36,16 @@ DistanceConstraint constraint(const PolycuboidMap& map, int a, int b, int at_lea
   return {a, b, at_least, at_most, name};
 }
 
-void divide_wall(const Division& division, const SideFaces& side_faces, const PolycuboidMap& map, const BlockComplex& complex,
+void divide_wall(const Division& division, const DemandPlaces& places, const PolycuboidMap& map, const BlockComplex& complex,
                  std::vector<DistanceConstraint>& constraints) {
   std::set<std::array<int, 2>> pairs;
   for (int b = 0; b < static_cast<int>(complex.blocks.size()); ++b) {
     for (int d = 0; d < 3; ++d) {
-      if (complex.blocks[b].neighbours[2 * d] >= 0) continue;
+      if (!is_wall(complex, places.block_solid, b, 2 * d)) continue;
       int last = b;
-      while (complex.blocks[last].neighbours[2 * d + 1] >= 0) last = complex.blocks[last].neighbours[2 * d + 1];
+      while (!is_wall(complex, places.block_solid, last, 2 * d + 1)) last = complex.blocks[last].neighbours[2 * d + 1];
       const auto has = [&](int block, int side, int face) {
-        const auto& faces = side_faces[block][side];
+        const auto& faces = places.side_faces[block][side];
         return std::binary_search(faces.begin(), faces.end(), face);
       };
       const auto [one, other] = division.faces;
@@ -198,44 +174,99 @@ void check_refinements(const CadModel& model, const LocalRefinements& refinement
   }
 }
 
-QuantizeOptions quantize_options(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const MeshOptions& options,
-                                 double scale) {
-  QuantizeOptions result;
-  result.scale = scale;
-  result.min_layers = std::max(1, options.min_layers);
-  if (options.divisions.empty() && options.sizes.empty()) return result;
-  const SideFaces side_faces = find_side_faces(tets, map, blocks);
-  const auto chains = edge_chains(model, tets);
-  const EdgeRuns runs(tets, map, blocks);
-  for (const Division& d : options.divisions) {
-    if (d.edge > 0) {
-      divide_edge(d, runs.of(chains[d.edge]), map, result.constraints);
-    } else {
-      divide_wall(d, side_faces, map, blocks, result.constraints);
-    }
-  }
-  for (const LocalSize& s : options.sizes) {
-    if (s.face == 0) {
-      result.axis_scale[s.axis] = 1 / (s.size * scale);
-      continue;
-    }
-    result.block_scale.resize(blocks.blocks.size(), 1);
-    for (std::size_t b = 0; b < blocks.blocks.size(); ++b) {
-      const auto on_face = [&](const std::vector<int>& faces) { return std::binary_search(faces.begin(), faces.end(), s.face); };
-      // Of several faces the finest size wins.
-      if (std::any_of(side_faces[b].begin(), side_faces[b].end(), on_face)) {
-        double& factor = result.block_scale[b];
-        factor = factor == 1 ? 1 / (s.size * scale) : std::max(factor, 1 / (s.size * scale));
+bool is_wall(const BlockComplex& blocks, const std::vector<int>& block_solid, int block, int side) {
+  const int beside = blocks.blocks[block].neighbours[side];
+  return beside < 0 || (!block_solid.empty() && block_solid[beside] != block_solid[block]);
+}
+
+SideFaces find_side_faces(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& complex, const std::vector<int>& block_solid,
+                          const TriangleChart& chart_at) {
+  SideFaces result(complex.blocks.size());
+  for (std::size_t b = 0; b < complex.blocks.size(); ++b) {
+    const Block& block = complex.blocks[b];
+    for (int tet : block.tets) {
+      if (!block_solid.empty() && tets.tet_solid[tet] != block_solid[b]) continue;
+      for (int k = 0; k < 4; ++k) {
+        Triangle facet;
+        for (int i = 0, n = 0; i < 4; ++i) {
+          if (i != k) facet[n++] = tets.tets[tet][i];
+        }
+        const auto at = chart_at(sorted(facet), static_cast<int>(b));
+        if (!at) continue;
+        const std::size_t side = side_on(complex, block_solid, static_cast<int>(b), map.charts[at->first], at->first);
+        if (side == 6) continue;
+        // A tet that only reaches into the block has its triangle elsewhere.
+        const Vec3 centre = (map.image[facet[0]] + map.image[facet[1]] + map.image[facet[2]]) / 3;
+        bool inside = true;
+        for (int d = 0; d < 3; ++d) {
+          if (d == static_cast<int>(side) / 2) continue;
+          inside &= centre[d] >= map.charts[block.charts[d][0]].value && centre[d] <= map.charts[block.charts[d][1]].value;
+        }
+        if (inside) result[b][side].push_back(at->second);
       }
+    }
+    for (auto& faces : result[b]) {
+      std::sort(faces.begin(), faces.end());
+      faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
     }
   }
   return result;
 }
 
-void bias_edges(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks, const EdgeBiases& biases,
-                const std::vector<int>& value, Spacing& spacing) {
-  if (biases.empty()) return;
-  const auto chains = edge_chains(model, tets);
+DemandPlaces find_places(const CadModel& model, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks) {
+  std::map<Triangle, int> triangle_at;
+  for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) triangle_at[sorted(tets.triangles[t])] = t;
+  std::vector<int> chart_of(tets.triangles.size(), -1);
+  for (int c = 0; c < static_cast<int>(map.charts.size()); ++c) {
+    for (int t : map.charts[c].triangles) chart_of[t] = c;
+  }
+  const auto chart_at = [&](const Triangle& triangle, int) -> std::optional<std::pair<int, int>> {
+    const auto at = triangle_at.find(triangle);
+    if (at == triangle_at.end() || chart_of[at->second] < 0) return std::nullopt;
+    return std::pair(chart_of[at->second], tets.triangle_face[at->second]);
+  };
+  return {find_side_faces(tets, map, blocks, {}, chart_at), edge_chains(model, tets), {}, {}};
+}
+
+QuantizeOptions quantize_options(const DemandPlaces& places, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
+                                 const MeshOptions& options, double scale) {
+  QuantizeOptions result;
+  result.scale = scale;
+  result.min_layers = std::max(1, options.min_layers);
+  std::vector<double> block_size = places.block_size;
+  block_size.resize(blocks.blocks.size(), 0);
+  const EdgeRuns runs(tets, map, blocks);
+  for (const Division& d : options.divisions) {
+    if (d.edge > 0) {
+      divide_edge(d, runs.of(places.edge_chains[d.edge]), map, result.constraints);
+    } else {
+      divide_wall(d, places, map, blocks, result.constraints);
+    }
+  }
+  std::vector<double> face_size(blocks.blocks.size(), 0);
+  for (const LocalSize& s : options.sizes) {
+    if (s.face == 0) {
+      result.axis_scale[s.axis] = 1 / (s.size * scale);
+      continue;
+    }
+    for (std::size_t b = 0; b < blocks.blocks.size(); ++b) {
+      const auto on_face = [&](const std::vector<int>& faces) { return std::binary_search(faces.begin(), faces.end(), s.face); };
+      if (std::none_of(places.side_faces[b].begin(), places.side_faces[b].end(), on_face)) continue;
+      // Of several faces the finest size wins.
+      face_size[b] = face_size[b] == 0 ? s.size : std::min(face_size[b], s.size);
+    }
+  }
+  for (std::size_t b = 0; b < blocks.blocks.size(); ++b) {
+    const double size = face_size[b] > 0 ? face_size[b] : block_size[b];
+    if (size == 0) continue;
+    result.block_scale.resize(blocks.blocks.size(), 1);
+    result.block_scale[b] = 1 / (size * scale);
+  }
+  return result;
+}
+
+void bias_edges(const std::vector<std::vector<int>>& chains, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
+                const EdgeBiases& biases, const std::vector<int>& value, Spacing& spacing) {
   const EdgeRuns edge_runs(tets, map, blocks);
   for (const EdgeBias& b : biases) {
     const std::vector<EdgeRun> runs = edge_runs.of(chains[b.edge]);

@@ -149,8 +149,9 @@ std::vector<int> face_labels(const LabelledPart& part, int face_count) {
   return labels;
 }
 
-std::string report_json(const std::string& name, const CadModel& model, const LabelledPart& part, const Inspection& inspection) {
+std::string report_json(const std::string& name, const Assembly& assembly, const LabelledPart& part, const Inspection& inspection) {
   const Violations& v = inspection.violations;
+  const std::vector<int> faces = assembly.faces();
   Json json;
   json["part"] = name;
   json["valid"] = v.valid();
@@ -160,7 +161,7 @@ std::string report_json(const std::string& name, const CadModel& model, const La
                         {"bad_corners", v.bad_corners},
                         {"turning_points", v.turning_points},
                         {"bad_turns", v.bad_turns}};
-  json["counts"] = {{"faces", model.faces().size()},
+  json["counts"] = {{"faces", faces.size()},
                     {"tets", part.tets.tets.size()},
                     {"triangles", part.tets.triangles.size()},
                     {"charts", inspection.charts},
@@ -176,11 +177,11 @@ std::string report_json(const std::string& name, const CadModel& model, const La
   }
   json["frame"] = Json::array();
   for (int k = 0; k < 3; ++k) json["frame"].push_back({part.labelling.frame(k, 0), part.labelling.frame(k, 1), part.labelling.frame(k, 2)});
-  const std::vector<int> labels = face_labels(part, model.face_count());
+  const std::vector<int> labels = face_labels(part, faces.back());
   json["faces"] = Json::object();
-  for (const int f : model.faces()) json["faces"][polycube::name({2, f})] = label_name(labels[f]);
+  for (const int f : faces) json["faces"][polycube::name({2, f})] = label_name(labels[f]);
   json["map"] = part.failure ? Json(part.failure->what()) : Json("made");
-  json["warnings"] = model.warnings();
+  json["warnings"] = assembly.all_warnings();
   json["stages"] = Json::array();
   for (const StageRecord& stage : part.stages) json["stages"].push_back({{"name", stage.name}, {"seconds", stage.seconds}});
   return json.dump(2) + "\n";

@@ -35,7 +35,7 @@ EdgeTable edge_table(const LabelledPart& part);
 std::vector<int> face_labels(const LabelledPart& part, int face_count);
 
 /// JSON object, indented, one line end at its end. `name`: of the part.
-std::string report_json(const std::string& name, const CadModel& model, const LabelledPart& part, const Inspection& inspection);
+std::string report_json(const std::string& name, const Assembly& assembly, const LabelledPart& part, const Inspection& inspection);
 
 /// VTK XML. Cells: boundary triangles; chart boundaries and CAD edges as lines; corners and doubtful points as vertices. Cell data:
 /// kind (0 triangle, 1 chart boundary, 2 CAD edge on chart boundaries, 3 CAD edge with feature charts, 4 CAD edge not captured, 5 corner, 6 corner that no

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cad/cad.h"
+#include "cad/assembly.h"
 #include "core/error.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
@@ -31,6 +31,10 @@ enum class Until { kLabels, kMap };
 /// them. `until` kLabels leaves the map out, which takes most of the time. All in the part's own place and the
 /// user's axes.
 LabelledPart label_part(const CadModel& model, const MeshOptions& options, const Monitor& monitor, Until until = Until::kMap);
+
+/// The same of a part of one solid or of several that touch: each of these with all of its boundary and points of its own, an interface as each of its sides
+/// sees it. They have no map; `failure` says so. Throws InvalidInput where solids have no common axes: those apart, or all with "separate".
+LabelledPart label_part(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor, Until until = Until::kMap);
 
 /// From the pose to the part's own place and the user's axes.
 void put_back(const Pose& pose, LabelledPart& part);

@@ -1,7 +1,6 @@
 #include "pipeline/part_mesh.h"
 
 #include "core/error.h"
-#include "core/union_find.h"
 #include "fem/join.h"
 #include "pipeline/conform_mesh.h"
 #include "pipeline/pipeline.h"
@@ -36,18 +35,6 @@ Monitor::Clock::time_point share_of(const Monitor& monitor, int solids_left) {
   if (monitor.deadline() == Monitor::Clock::time_point::max()) return monitor.deadline();
   const auto now = Monitor::Clock::now();
   return now + (monitor.deadline() - now) / solids_left;
-}
-
-/// Solids that go into one mesh with common nodes: those that touch, directly or through others; else each by itself.
-std::vector<std::vector<int>> units_of(const Assembly& assembly, const MeshOptions& options) {
-  const int count = static_cast<int>(assembly.solids.size());
-  UnionFind same(assembly.solids.size());
-  if (options.interfaces == "conform")
-    for (const Interface& i : assembly.interfaces) same.unite(i.solids[0] - 1, i.solids[1] - 1);
-  std::vector<std::vector<int>> units(assembly.solids.size());
-  for (int s = 0; s < count; ++s) units[static_cast<std::size_t>(same.find(s))].push_back(s + 1);
-  std::erase_if(units, [](const auto& unit) { return unit.empty(); });
-  return units;
 }
 
 std::string names(const Assembly& assembly, const std::vector<int>& unit) {
@@ -120,6 +107,35 @@ PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& opt
   }
   made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
   return made;
+}
+
+AssemblySession::AssemblySession(Assembly assembly, const MeshOptions& options) : assembly_(std::move(assembly)) {
+  check(options, assembly_.diagonal(), {assembly_.faces(), assembly_.edges(), assembly_.vertices(), static_cast<int>(assembly_.solids.size())});
+  if (assembly_.solids.size() == 1) {
+    one_ = std::make_unique<Session>(assembly_.solids.front(), options);
+  } else {
+    check_by_solid(options, assembly_);
+  }
+}
+
+void AssemblySession::prepare(const Monitor& monitor) {
+  if (one_) one_->prepare(monitor);
+}
+
+PartMesh AssemblySession::mesh(const MeshOptions& options, const Monitor& monitor) {
+  if (one_) return mesh_part(*one_, options, monitor);
+  check(options, assembly_.diagonal(), {assembly_.faces(), assembly_.edges(), assembly_.vertices(), static_cast<int>(assembly_.solids.size())});
+  check_by_solid(options, assembly_);
+  return mesh_solids(assembly_, options, monitor);
+}
+
+LabelledPart AssemblySession::labels(const MeshOptions& options, const Monitor& monitor, Until until) {
+  return one_ ? one_->labels(options, monitor, until) : label_part(assembly_, options, monitor, until);
+}
+
+int AssemblySession::count(const MeshOptions& options, const Monitor& monitor) {
+  if (!one_) throw InvalidInput("the cells of several solids are not counted before they are meshed");
+  return one_->count(options, monitor);
 }
 
 PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& options, const Monitor& monitor) {

@@ -27,6 +27,23 @@ PartMesh mesh_part(const std::function<CadModel()>& read, const MeshOptions& opt
 /// The same on a part that is there already: its stages begin with what the session has not made before.
 PartMesh mesh_part(Session& session, const MeshOptions& options, const Monitor& monitor);
 
+/// A Session for as many solids as there are. Of several nothing is kept but the shape as read: each mesh is made anew.
+class AssemblySession {
+ public:
+  /// Throws InvalidInput: options against this part.
+  AssemblySession(Assembly assembly, const MeshOptions& options);
+  void prepare(const Monitor& monitor);
+  PartMesh mesh(const MeshOptions& options, const Monitor& monitor);
+  LabelledPart labels(const MeshOptions& options, const Monitor& monitor, Until until = Until::kLabels);
+  /// Throws InvalidInput where there are several.
+  int count(const MeshOptions& options, const Monitor& monitor);
+  int face_count() const { return assembly_.faces().back(); }  ///< the largest number
+
+ private:
+  Assembly assembly_;
+  std::unique_ptr<Session> one_;
+};
+
 /// For what is left to do with a mesh: one that the time limit ended the search for is handed out all the same, so there is no deadline
 /// then.
 Monitor::Clock::time_point finishing_deadline(const MeshReport& report, const Monitor& monitor);

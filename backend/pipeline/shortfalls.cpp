@@ -67,4 +67,19 @@ Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Ass
   return result;
 }
 
+std::vector<std::string> merged_faces(const CadCapture& capture, const Association& association) {
+  constexpr std::size_t kNamed = 6;  // more would hide the other warnings; the report has them all
+  std::vector<std::string> lines;
+  for (const auto& patch : association.patches) {
+    if (patch.size() < 2 || !std::binary_search(capture.ignored_faces.begin(), capture.ignored_faces.end(), patch[0])) continue;
+    std::string faces;
+    for (std::size_t i = 0; i < std::min(patch.size(), kNamed); ++i) faces += (i == 0 ? "" : ", ") + name({2, patch[i]});
+    if (patch.size() > kNamed) faces += " and " + std::to_string(patch.size() - kNamed) + " more";
+    lines.push_back(faces +
+                    " are one surface to the mesh, as the feature angle asks: the borders of their mesh faces are off the CAD edges between them, and "
+                    "their areas differ from the CAD's");
+  }
+  return lines;
+}
+
 }  // namespace polycube

@@ -5,6 +5,7 @@
 
 #include "cad/cad.h"
 #include "core/mesh.h"
+#include "core/report.h"
 
 namespace polycube {
 
@@ -18,5 +19,8 @@ struct Shortfalls {
 std::vector<int> elements_on_edges(const Association& association, int edge_count);
 
 Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle);
+
+/// One line for every patch whose faces edges that are ignored on demand join.
+std::vector<std::string> merged_faces(const CadCapture& capture, const Association& association);
 
 }  // namespace polycube

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/union_find.h"
 
 namespace polycube {
 namespace {
@@ -66,6 +67,17 @@ void check_by_solid(const MeshOptions& options, const Assembly& assembly) {
                                       [&](const CadModel& solid) { return has(solid.faces(), d.faces[0]) && has(solid.faces(), d.faces[1]); });
     if (!together) throw InvalidInput("--divisions: " + text_of(d) + ": the faces belong to different solids");
   }
+}
+
+std::vector<std::vector<int>> units_of(const Assembly& assembly, const MeshOptions& options) {
+  const int count = static_cast<int>(assembly.solids.size());
+  UnionFind same(assembly.solids.size());
+  if (options.interfaces == "conform")
+    for (const Interface& i : assembly.interfaces) same.unite(i.solids[0] - 1, i.solids[1] - 1);
+  std::vector<std::vector<int>> units(assembly.solids.size());
+  for (int s = 0; s < count; ++s) units[static_cast<std::size_t>(same.find(s))].push_back(s + 1);
+  std::erase_if(units, [](const auto& unit) { return unit.empty(); });
+  return units;
 }
 
 }  // namespace polycube

@@ -12,6 +12,9 @@ MeshOptions options_of_solid(const MeshOptions& options, const Assembly& assembl
 /// Sizes and layers that are asked for by solid, as those of the only solid there is.
 MeshOptions without_solids(const MeshOptions& options);
 
+/// Solids that go into one mesh with common nodes: those that touch, directly or through others; else each by itself.
+std::vector<std::vector<int>> units_of(const Assembly& assembly, const MeshOptions& options);
+
 /// Throws InvalidInput where a demand is on faces of two solids.
 void check_by_solid(const MeshOptions& options, const Assembly& assembly);
 

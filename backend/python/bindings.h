@@ -43,14 +43,13 @@ class Callbacks {
 /// Options from keyword arguments; None means the default. Throws InvalidInput.
 MeshOptions options_from(const py::kwargs& given);
 
-/// CadModel for one solid, Assembly for as many as there are. Exactly one of path and brep must be given. Throws InvalidInput.
-template <class Part>
-Part read_part(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
-               const MeshOptions& options, const Monitor& monitor) {
+/// Exactly one of path and brep must be given. Throws InvalidInput.
+inline Assembly read_part(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+                          const MeshOptions& options, const Monitor& monitor) {
   if (path.has_value() == brep.has_value()) throw InvalidInput("give either path or brep");
   if (object && brep) throw InvalidInput("object is for FreeCAD documents only");
   const ReadOptions how{.object = object.value_or(""), .sew = options.sew};
-  return path ? Part::read(*path, how, monitor) : Part::from_brep(*brep, how, monitor);
+  return path ? Assembly::read(*path, how, monitor) : Assembly::from_brep(*brep, how, monitor);
 }
 
 /// Runs `work` with the GIL released and the time limit of the options, and turns what callbacks threw into what comes out.

@@ -13,10 +13,10 @@ py::dict make(const std::optional<std::string>& path, const std::optional<std::s
   Callbacks callbacks(progress, log, cancel);
   int face_count = 0;
   const LabelledPart part = run_released(callbacks, options, [&] {
-    const CadModel model = read_part<CadModel>(path, brep, object, options, callbacks.monitor);
-    check(options, model.diagonal(), {model.faces(), model.edges(), model.vertices()});
-    face_count = model.face_count();
-    return label_part(model, options, callbacks.monitor, Until::kLabels);
+    const Assembly assembly = read_part(path, brep, object, options, callbacks.monitor);
+    check(options, assembly.diagonal(), {assembly.faces(), assembly.edges(), assembly.vertices(), static_cast<int>(assembly.solids.size())});
+    face_count = assembly.faces().back();
+    return label_part(assembly, options, callbacks.monitor, Until::kLabels);
   });
   const Inspection inspection = inspect(part);
   py::array_t<double> frame({3, 3});
@@ -53,9 +53,10 @@ void bind_labels(py::module_& module) {
   }
   module.attr("LABEL_NAMES") = names;
   module.attr("LABEL_COLOURS") = colours;
-  module.def("labels", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
-             py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-             "Labels of the boundary of one CAD solid (0..5 = +X -X +Y -Y +Z -Z of the frame), to look at; see backend/python/README.md.");
+  module.def(
+      "labels", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
+      py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
+      "Labels of the boundary of one CAD solid, or of several that touch (0..5 = +X -X +Y -Y +Z -Z of the frame), to look at; see backend/python/README.md.");
 }
 
 }  // namespace polycube::python

@@ -30,9 +30,8 @@ Mesh make(const std::optional<std::string>& path, const std::optional<std::strin
           const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
-  return run_released(callbacks, options, [&] {
-    return mesh_part([&] { return read_part<Assembly>(path, brep, object, options, callbacks.monitor); }, options, callbacks.monitor);
-  });
+  return run_released(callbacks, options,
+                      [&] { return mesh_part([&] { return read_part(path, brep, object, options, callbacks.monitor); }, options, callbacks.monitor); });
 }
 
 /// A part that is meshed several times. What is given to mesh() comes before what was given at first.
@@ -54,7 +53,7 @@ class PartSession {
   }
 
  public:
-  PartSession(CadModel model, py::kwargs given) : session_(std::move(model), options_from(given)), given_(std::move(given)) {}
+  PartSession(Assembly assembly, py::kwargs given) : session_(std::move(assembly), options_from(given)), given_(std::move(given)) {}
 
   void prepare(Callbacks& callbacks) {
     const MeshOptions options = options_from(given_);
@@ -65,7 +64,7 @@ class PartSession {
   }
 
   Mesh mesh(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
-    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) { return mesh_part(session_, options, monitor); });
+    return at_work(progress, log, cancel, more, [&](const MeshOptions& options, const Monitor& monitor) { return session_.mesh(options, monitor); });
   }
 
   int count(const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& more) {
@@ -73,7 +72,7 @@ class PartSession {
   }
 
  private:
-  Session session_;
+  AssemblySession session_;
   py::kwargs given_;
   std::mutex at_work_;
 };
@@ -82,8 +81,8 @@ std::unique_ptr<PartSession> prepare(const std::optional<std::string>& path, con
                                      const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
-  CadModel model = run_released(callbacks, options, [&] { return read_part<CadModel>(path, brep, object, options, callbacks.monitor); });
-  auto session = std::make_unique<PartSession>(std::move(model), given);
+  Assembly assembly = run_released(callbacks, options, [&] { return read_part(path, brep, object, options, callbacks.monitor); });
+  auto session = std::make_unique<PartSession>(std::move(assembly), given);
   session->prepare(callbacks);
   return session;
 }
@@ -129,7 +128,7 @@ void bind_mesh(py::module_& module) {
            "How many hexahedra mesh() would make of these options, without fitting them.");
   module.def("prepare", &prepare, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-             "A Session of one CAD solid, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");
+             "A Session of one CAD solid, with tetrahedra, labels, map and blocks made, or of several. Further keyword arguments: options().");
   module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "Hexahedral mesh of a CAD solid, or of several. Further keyword arguments: options().");

@@ -135,6 +135,14 @@ class Inputs(solving.SolveTest):
         with self.assertRaises(polycube.InvalidInput):
             polycube.mesh([])
 
+    def test_labels_and_sessions(self):
+        parts = [Part.makeBox(10, 10, 5), Part.makeBox(4, 4, 4, Vector(3, 3, 5))]
+        labels = polycube.labels(parts, size=2)
+        self.assertTrue(labels.valid)
+        self.assertEqual(sorted(labels.face_label), list(range(1, 13)))
+        with polycube.prepare(parts, size=2, order=1, min_layers=1) as session:
+            self.assertEqual(sorted(set(session.mesh().hex_solid.tolist())), [1, 2])
+
     def test_a_list_of_one(self):
         one, alone = polycube.mesh([Part.makeBox(4, 4, 4)], size=2), polycube.mesh(Part.makeBox(4, 4, 4), size=2)
         self.assertTrue((one.nodes == alone.nodes).all())

@@ -121,6 +121,22 @@ class Documents(Reading):
             FreeCAD.closeDocument(document.Name)
         return self.path(name)
 
+    def test_links_are_not_passed_over(self):
+        """The file holds no shape of a link: it is named, alone or beside what it leads to."""
+
+        def build(document):
+            box = document.addObject("Part::Box", "Cube")
+            for name, target in (("Again", box), ("Third", "Again")):
+                document.addObject("App::Link", name).LinkedObject = document.getObject(target) if isinstance(target, str) else target
+            document.getObject("Again").Placement.Base = VECTOR(10, 0, 0)
+
+        path = self.save(build)
+        run = self.run_program("mesh", path, "-o", self.path("out.inp"), "--size", "5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        for name in ("Again", "Third"):
+            self.assertEqual(run.stderr.count("left out: {}, which is a link".format(name)), 1, run.stderr)
+            self.assertIn("{}, which is a link: the workbench in FreeCAD follows links".format(name), self.refuses(path, "--object", name))
+
     def edit(self, path, change):
         """Document.xml of a saved document as another program would have written it."""
         with zipfile.ZipFile(path) as archive:

@@ -140,6 +140,7 @@ class Conform(FolderTest):
         self.assertLessEqual(max(map(len, sides.values())), 2)
         for solid, report in zip(solids, found.report["solids"]):
             self.assertAlmostEqual(report["volume"]["mesh"] / solid.Volume, 1, delta=volume)
+            self.assertEqual(report["cad"]["faces"]["total"], len(solid.Faces))
             for kind in report["cad"].values():
                 self.assertEqual(kind["captured"], kind["total"])
         between = {key for key, cells in sides.items() if len({int(found.hex_solid[cell]) for cell in cells}) == 2}
@@ -154,7 +155,7 @@ class Conform(FolderTest):
         return found
 
     def test_laminate(self):
-        found = self.check(laminate(1, 0.5, 2), size=1, min_layers=1)
+        found = self.check(laminate(1, 0.5, 2), size=1, min_layers=1, growth=1)
         self.assertEqual([solid["counts"]["hexes"] for solid in found.report["solids"]], [96, 96, 192])
 
     def test_boxes_that_touch_in_part_of_a_face(self):
@@ -183,11 +184,29 @@ class Conform(FolderTest):
         ball = Part.makeSphere(3, VECTOR(5, 5, 5))
         self.check(Part.Compound([Part.makeBox(10, 10, 10).cut(ball), ball]), size=2, volume=0.3)
 
+    def test_halves_of_a_ball(self):
+        """Nothing on the outside tells the axes; the face between the halves does."""
+        ball = Part.makeSphere(6)
+        self.check(Part.Compound([ball.common(Part.makeBox(20, 20, 20, VECTOR(-10, -10, z))) for z in (0, -20)]), size=2, volume=0.3)
+
+    def test_the_same_solid_twice_is_one(self):
+        box = Part.makeBox(4, 4, 4)
+        found = mesh(Part.Compound([box, box]), size=2)
+        np.testing.assert_array_equal(found.nodes, mesh(box, size=2).nodes)
+        self.assertEqual(found.report["warnings"], ["the solid is in the shape 2 times; it is meshed once"])
+
+    def test_layers_go_through_interfaces(self):
+        """The outside of a stack of discs is one cylinder: one layer under all of it, where each disc by itself could not lay it past its neighbours."""
+        discs = [Part.makeCylinder(6, t, VECTOR(0, 0, z)).cut(Part.makeCylinder(3, t, VECTOR(0, 0, z))) for z, t in ((0, 3), (3, 2), (5, 3))]
+        found = self.check(Part.Compound(discs), size=1.5, volume=0.1)
+        self.assertGreater(found.scaled_jacobian.min(), 0.6)
+        self.assertTrue(all(solid["counts"]["padded_hexes"] > 0 for solid in found.report["solids"]))
+
     def test_five_in_a_row(self):
         self.check(Part.Compound([Part.makeBox(4, 5, 5, VECTOR(4 * i, 0, 0)) for i in range(5)]), size=2)
 
     def test_layers_and_sizes_by_solid(self):
-        found = self.check(laminate(1, 1), size=1, divisions={"Solid2": "3.."}, order=1, min_layers=1)
+        found = self.check(laminate(1, 1), size=1, divisions={"Solid2": "3.."}, order=1, min_layers=1, growth=1)
         self.assertEqual([solid["counts"]["hexes"] for solid in found.report["solids"]], [96, 288])
         coarse, fine = self.check(laminate(4, 4), size=2), self.check(laminate(4, 4), size=2, sizes={"Solid2": 1})
         self.assertEqual(len(coarse.hexes) < len(fine.hexes), True)
@@ -213,6 +232,51 @@ class Conform(FolderTest):
             self.assertEqual({int(found.hex_solid[cell]) for cell in cells}, {solid})
 
 
+class Looking(FolderTest):
+    """Labels of solids that touch, and several meshes of them."""
+
+    def test_labels_of_both_sides(self):
+        """Of boxes the labels are the normals; an interface has opposite ones on its two sides, each by its own number."""
+        shape = box_on_box()
+        found = _polycube.labels(brep=shape.exportBrepToString(), size=1)
+        normal = {(1, 0, 0): 0, (-1, 0, 0): 1, (0, 1, 0): 2, (0, -1, 0): 3, (0, 0, 1): 4, (0, 0, -1): 5}
+        expected = {n: normal[tuple(round(x) for x in face.normalAt(0, 0))] for n, face in enumerate(shape.Faces, 1)}
+        self.assertEqual(found["face_label"], expected)
+        self.assertTrue(found["valid"])
+        self.assertEqual(sorted(found["edges"]), list(range(1, len(shape.Edges) + 1)))
+        self.assertEqual({fate for fate, _ in found["edges"].values()}, {"boundary"})
+        self.assertEqual(len(found["triangle_face"]), len(found["label"]))
+
+    def test_a_shared_bore_has_all_four_labels(self):
+        found = _polycube.labels(brep=pin_in_plate().exportBrepToString(), size=2)
+        bore = next(n for n, face in enumerate(pin_in_plate().Faces, 1) if face.Surface.TypeId == "Part::GeomCylinder")
+        self.assertEqual(set(found["label"][found["triangle_face"] == bore].tolist()), {0, 1, 2, 3})
+
+    def test_pictures_and_reports(self):
+        part = self.save(pin_in_plate())
+        run = self.run_program("label", part, "-o", self.path("labels.png"), "-o", self.path("labels.vtu"), "--report", self.path("labels.json"))
+        self.assertEqual(run.returncode, 0, run.stderr)
+        with open(self.path("labels.json")) as file:
+            report = json.load(file)
+        self.assertTrue(report["valid"])
+        self.assertEqual(sorted(report["faces"]), sorted("Face{}".format(n) for n in range(1, len(pin_in_plate().Faces) + 1)))
+
+    def test_solids_apart_have_no_common_axes(self):
+        for shape, options in ((Part.Compound([Part.makeBox(1, 1, 1), Part.makeBox(1, 1, 1, VECTOR(3, 0, 0))]), ()), (box_on_box(), ("--interfaces", "separate"))):
+            run = self.run_program("label", self.save(shape), *options)
+            self.assertEqual(run.returncode, 1)
+            self.assertIn("of 2 solids that are meshed separately each has axes of its own: look at one of them", run.stderr)
+
+    def test_a_session(self):
+        session = _polycube.prepare(brep=box_on_box().exportBrepToString(), size=2)
+        for options in ({"size": 1}, {"size": 2, "interfaces": "separate"}, {"order": 1}):
+            found, alone = session.mesh(**options), mesh(box_on_box(), **{"size": 2, **options})
+            np.testing.assert_array_equal(found.nodes, alone.nodes)
+            np.testing.assert_array_equal(found.hexes, alone.hexes)
+        with self.assertRaisesRegex(_polycube.InvalidInput, "Solid3 does not exist"):
+            session.mesh(sizes={"Solid3": 1})
+
+
 class Refusals(FolderTest):
     def test_what_cannot_conform_names_separate(self):
         """Two of these boxes meet in an edge only, so that the whole is no solid."""
@@ -221,7 +285,18 @@ class Refusals(FolderTest):
         message = self.refuses(part, status=2)
         for text in ("Solid1, Solid2, Solid3, Solid4", "more than two faces meet", "--interfaces separate"):
             self.assertIn(text, message)
+        self.assertIn("Edge", message.split("(")[-1])
         self.assertEqual(len(set(mesh(Part.Compound(boxes), size=1, interfaces="separate").hex_solid.tolist())), 4)
+
+    def test_what_touches_itself_in_a_point(self):
+        """A cylinder tangent to the edge of the block below it; a ring tangent to the bolt holes of the plates on both sides."""
+        tangent = Part.Compound([Part.makeBox(20, 20, 8), Part.makeCylinder(5, 12, VECTOR(15, 10, 8))])
+        plates = [Part.makeBox(30, 30, 3, VECTOR(-15, -15, z)).cut(Part.makeCylinder(2, 3, VECTOR(0, 8, z))) for z in (0, 5)]
+        ring = Part.makeCylinder(6, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(3, 2, VECTOR(0, 0, 3)))
+        for shape, fault in ((tangent, "Vertex"), (Part.Compound([plates[0], ring, plates[1]]), "Edge")):
+            message = self.refuses(self.save(shape), status=2)
+            self.assertIn("their outside touches itself in a point only; --interfaces separate", message)
+            self.assertIn(fault, message.split("(")[-1])
 
     def test_overlap(self):
         part = self.save(Part.Compound([Part.makeBox(2, 2, 2), Part.makeBox(2, 2, 2, VECTOR(1, 0, 0))]))

@@ -21,6 +21,7 @@
 #include "pipeline/demands.h"
 #include "pipeline/edge_runs.h"
 #include "pipeline/gate.h"
+#include "pipeline/integers.h"
 #include "pipeline/local_refinement.h"
 #include "pipeline/search/give_up.h"
 #include "pipeline/shortfalls.h"
@@ -38,12 +39,9 @@ constexpr double kCoarse = 1.0 / 25;
 constexpr std::array kFiner{1.25, 1.6, 2.0};
 // Divisions of the grid one after the other at one vertex: for as many CAD edges more than a corner of the grid has.
 constexpr int kRoomRounds = 3;
-// Times that the integers are found anew for what stands beside each other: what is left after them is little.
-constexpr int kNeighbourRounds = 3;
-// Number of cells asked for: how far off the grid's may be (logarithm), and with padding; the number goes with the 2.5th power of the scale or less, where
-// bounds hold some of them; a scale that many times off is not tried.
-constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1, kCountPower = 0.4, kCountReach = 8;
-constexpr int kCountRounds = 8, kRecounts = 2;
+// Number of cells: up to this much off it is no other; how far off the one asked for it may be with padding, and how often it is tried to come nearer.
+constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1;
+constexpr int kRecounts = 2;
 // Times that round CAD edges get more cells.
 constexpr int kRoundingRounds = 2;
 // Cells of the whole grid from which bores may be refined locally instead, if they ask for so many times what the grid has without them, and if it takes at
@@ -57,16 +55,6 @@ struct Routed {
   Association association;
   std::vector<CrowdedCorner> crowded;
 };
-
-double cell_count(const BlockComplex& blocks, const std::vector<int>& value) {
-  double cells = 0;
-  for (const Block& b : blocks.blocks) {
-    double product = 1;
-    for (const auto& [low, high] : b.charts) product *= value[high] - value[low];
-    cells += product;
-  }
-  return cells;
-}
 
 double typical_edge(const HexMesh& mesh) {
   double sum = 0;
@@ -351,7 +339,7 @@ class Evaluator::Work {
     draft.complex = clock_.stage("hex", [&] {
       const std::vector<int>& value = draft.quantization.value;
       Spacing spacing = graded_spacing(s.blocks, s.map, value, options_.growth);
-      bias_edges(model_, s.tets, s.map, s.blocks, options_.bias, value, spacing);
+      if (!options_.bias.empty()) bias_edges(edge_chains(model_, s.tets), s.tets, s.map, s.blocks, options_.bias, value, spacing);
       return build_hexes(s.tets, s.map, s.blocks, draft.quantization, monitor_, spacing);
     });
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(draft.complex.mesh.hexes.size()) + " hexes");
@@ -382,7 +370,7 @@ class Evaluator::Work {
   }
 
   Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
-    double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
+    const double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
     std::vector<DistanceConstraint> room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
     auto chains = association.edge_chains;
     for (const FeatureEdge& e : s.features.edges) {
@@ -392,53 +380,23 @@ class Evaluator::Work {
       const auto more = room_for_edges(chains, s.tets, s.map, s.blocks);
       room.insert(room.end(), more.begin(), more.end());
     }
-    const std::vector<DistanceConstraint> own =
-        plan.bounded ? part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_, levels_) : std::vector<DistanceConstraint>();
-    std::vector<DistanceConstraint> bounds = own;
-    Quantization result = integers(s, scale, divisions, room, bounds, plan.bounded);
-    if (options_.hexes > 0) {
-      const double wanted = options_.hexes * std::pow(plan.refine, 3) * grid_share_;
-      const auto miss = [&](const Quantization& q) { return std::abs(std::log(cell_count(s.blocks, q.value) / wanted)); };
-      // Between two scales that give fewer and more: the next by how the number goes with the scale, or the middle once both are known.
-      double tried = scale, low = 0, high = 0;
-      double best = miss(result);
-      Quantization next = result;
-      for (int round = 0; round < kCountRounds && best > kCountMiss; ++round) {
-        const double cells = cell_count(s.blocks, next.value);
-        (cells < wanted ? low : high) = tried;
-        tried = low > 0 && high > 0 ? std::sqrt(low * high) : tried * std::pow(wanted / cells, kCountPower);
-        if (tried < scale / kCountReach || tried > scale * kCountReach) break;
-        std::vector<DistanceConstraint> asked = own;
-        next = integers(s, tried, divisions, room, asked, plan.bounded);
-        if (miss(next) >= best) continue;
-        best = miss(next);
-        result = next;
-        bounds = std::move(asked);
-      }
-      scale = tried;
-    }
-    for (const std::string& line : deciding(bounds, s.map, result.value, scale)) monitor_.log("size: " + line);
-    return result;
-  }
-
-  // `bounds` get those of neighbouring cells added where cells are to grow from small ones (`growing`).
-  Quantization integers(const Structure& s, double scale, const Divisions& divisions, const std::vector<DistanceConstraint>& room,
-                        std::vector<DistanceConstraint>& bounds, bool growing) const {
     MeshOptions demanded = options_;
     demanded.divisions = divisions;
-    QuantizeOptions asked = quantize_options(model_, s.tets, s.map, s.blocks, demanded, scale);
-    const auto add = [&](const std::vector<DistanceConstraint>& more) { asked.constraints.insert(asked.constraints.end(), more.begin(), more.end()); };
-    add(room);
-    add(bounds);
-    Quantization result = quantize(s.blocks, s.map, asked, monitor_);
-    for (int round = 0; round < kNeighbourRounds && growing && !options_.coarsest; ++round) {
-      const std::vector<DistanceConstraint> more = neighbour_bounds(s.map, s.blocks, result.value, options_.growth, 1 / scale, !levels_.empty());
-      if (more.empty()) break;
-      add(more);
-      bounds.insert(bounds.end(), more.begin(), more.end());
-      result = quantize(s.blocks, s.map, asked, monitor_);
-    }
-    return result;
+    IntegerOptions wanted;
+    wanted.scale = scale;
+    wanted.wanted_cells = options_.hexes * std::pow(plan.refine, 3) * grid_share_;
+    wanted.growth = options_.growth;
+    wanted.growing = plan.bounded;
+    wanted.coarsest = options_.coarsest;
+    wanted.local = !levels_.empty();
+    const bool places_matter = !demanded.divisions.empty() || !demanded.sizes.empty();
+    const DemandPlaces places = places_matter ? find_places(model_, s.tets, s.map, s.blocks) : DemandPlaces();
+    wanted.demanded = [&](double at) { return quantize_options(places, s.tets, s.map, s.blocks, demanded, at); };
+    wanted.room = std::move(room);
+    if (plan.bounded) wanted.bounds = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_, levels_);
+    Integers found = find_integers(s.blocks, s.map, wanted, monitor_);
+    for (const std::string& line : found.deciding) monitor_.log("size: " + line);
+    return std::move(found.quantization);
   }
 
   Routed routed(const Draft& draft, const HexComplex& complex) {
@@ -619,16 +577,7 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
   r.warnings.insert(r.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());
   for (int e : result.association.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
-  for (const auto& patch : result.association.patches) {
-    if (patch.size() < 2 || !std::binary_search(r.capture.ignored_faces.begin(), r.capture.ignored_faces.end(), patch[0])) continue;
-    constexpr std::size_t kNamed = 6;  // more would hide the other warnings; the report has them all
-    std::string faces;
-    for (std::size_t i = 0; i < std::min(patch.size(), kNamed); ++i) faces += (i == 0 ? "" : ", ") + name({2, patch[i]});
-    if (patch.size() > kNamed) faces += " and " + std::to_string(patch.size() - kNamed) + " more";
-    r.warnings.push_back(faces +
-                         " are one surface to the mesh, as the feature angle asks: the borders of their mesh faces are off the CAD edges between them, and "
-                         "their areas differ from the CAD's");
-  }
+  for (std::string& line : merged_faces(r.capture, result.association)) r.warnings.push_back(std::move(line));
   return result;
 }
 

@@ -81,7 +81,7 @@ TEST(Inspect, ATurningPointIsWhereTheBorderReverses) {
 
 TEST(Inspect, TheReportReadsBack) {
   const LabelledPart part = relabelled([](double, double) { return false; });
-  const auto json = nlohmann::json::parse(report_json("box", box(), part, inspect(part)));
+  const auto json = nlohmann::json::parse(report_json("box", Assembly{{box()}, {""}, {}}, part, inspect(part)));
   EXPECT_EQ(json["valid"], true);
   EXPECT_EQ(json["counts"]["charts"], 6);
   EXPECT_EQ(json["edges"]["total"], 12);

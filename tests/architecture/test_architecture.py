@@ -104,6 +104,12 @@ class Stages(unittest.TestCase):
         for name in folders:
             self.assertTrue(os.path.exists(os.path.join(BACKEND, name, "README.md")), f"backend/{name} has no README.md")
 
+    def test_pages_are_short(self):
+        for name in tracked():
+            if name.startswith("backend/") and name.endswith(".md"):
+                with open(os.path.join(REPO, name), encoding="utf-8") as page:
+                    self.assertLessEqual(len(page.read().split()), 1000, name)
+
 
 class PublicHeaders(unittest.TestCase):
     """A stage's public headers are those that other folders include."""

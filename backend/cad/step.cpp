@@ -247,6 +247,19 @@ std::vector<std::pair<TopoDS_Shape, std::string>> solid_labels(const STEPControl
   return labels;
 }
 
+/// Solids that the file has, of which the transfer made none: what they are built on is missing.
+void refuse_lost_solids(const STEPControl_Reader& reader, const std::string& path) {
+  const opencascade::handle<Interface_InterfaceModel> model = reader.WS()->Model();
+  const opencascade::handle<Transfer_TransientProcess> process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Entity entity = model->Value(i);
+    if (!is_solid(entity)) continue;
+    const TopoDS_Shape result = TransferBRep::ShapeResult(process, entity);
+    if (result.IsNull() || !TopExp_Explorer(result, TopAbs_SOLID).More())
+      throw InvalidInput(path + ": the STEP file is damaged: its solid " + model->StringLabel(entity)->ToCString() + " cannot be made of it");
+  }
+}
+
 FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   STEPControl_Reader reader;
   StoppableFile file(path, monitor);
@@ -259,6 +272,7 @@ FileShape transfer_step(const std::string& path, const Monitor& monitor) {
   reader.TransferRoots(progress->Start());
   monitor.check();
   if (reader.NbShapes() == 0) throw InvalidInput(path + ": the STEP file holds no shape");
+  refuse_lost_solids(reader, path);
   FileShape read{reader.OneShape(), declared_tolerance(*reader.WS()->Model()), {}};
   read.labels = solid_labels(reader, read.shape);
   if (faults > 0)

@@ -404,6 +404,10 @@ class BadInput(DocumentTest):
         self.assertFalse(self.document.HasPendingTransaction)
         return message
 
+    def test_name_that_is_none(self):
+        for name in (5, "", None):
+            self.assertIn("name", self.check(self.feature(Part.makeBox(1, 1, 1)), name=name))
+
     def test_empty_compound(self):
         self.check(self.feature(Part.makeCompound([])))
 

@@ -1,6 +1,7 @@
 """polycube.prepare: one part, several meshes, one map."""
 
 import os
+import threading
 import unittest
 
 import FreeCAD
@@ -44,6 +45,24 @@ class Sessions(unittest.TestCase):
         lines = []
         self.assertGreater(len(self.session.mesh(log=lines.append).hexes), 0)
         self.assertTrue(lines)
+
+    def test_another_thread_is_refused(self):
+        said = []
+
+        def ask():
+            try:
+                self.session.mesh()
+            except polycube.InvalidInput as error:
+                said.append(str(error))
+
+        def progress(*_):
+            if not said:
+                other = threading.Thread(target=ask)
+                other.start()
+                other.join(60)
+
+        self.assertGreater(len(self.session.mesh(progress=progress).hexes), 0)
+        self.assertEqual(said, ["the session is at work in another thread"])
 
     def test_labels_and_counts_share_the_tetrahedra(self):
         first = self.session.labels()

@@ -298,6 +298,20 @@ class Refusals(FolderTest):
             self.assertIn("their outside touches itself in a point only; --interfaces separate", message)
             self.assertIn(fault, message.split("(")[-1])
 
+    def test_a_solid_lost_to_damage(self):
+        """A quote that is missing takes the entities up to the next one with it: the other solid would be meshed alone."""
+        whole = self.path("whole.step")
+        box_on_box().exportStep(whole)
+        with open(whole) as file:
+            lines = file.read().split("\n")
+        at = [number for number, line in enumerate(lines) if "= FACE_BOUND('" in line or "= VECTOR('" in line]
+        for number in (at[0], at[len(at) // 2], at[-1]):
+            damaged = list(lines)
+            damaged[number] = damaged[number].replace("(''", "('")
+            with open(self.path("damaged.step"), "w") as file:
+                file.write("\n".join(damaged))
+            self.assertIn("damaged", self.refuses(self.path("damaged.step")))
+
     def test_overlap(self):
         part = self.save(Part.Compound([Part.makeBox(2, 2, 2), Part.makeBox(2, 2, 2, VECTOR(1, 0, 0))]))
         for interfaces in ("conform", "separate"):

@@ -128,6 +128,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     document = parts[0].Document
     if any(one.Document != document for one in parts):
         raise InvalidInput("the parts are in different documents")
+    if not isinstance(name, str) or not name:
+        raise InvalidInput("name: not a name but {!r}".format(name))
     _check_analysis(analysis, parts[0])
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)

@@ -2,9 +2,10 @@
 
 import os
 import subprocess
+import threading
 
 from . import job
-from .errors import Cancelled
+from .errors import Cancelled, InvalidInput
 
 #: Of these only one can say how fine a mesh is.
 _FINENESS = ("size", "hexes", "coarsest")
@@ -17,6 +18,7 @@ class Session:
         self._shape, self._options = shape, options
         self._job = self._child = None
         self._meshes = 0
+        self._at_work = threading.Lock()
 
     def mesh(self, progress=None, log=None, cancel=None, **options):
         """As polycube.mesh(), with the options of prepare() where they are not given here."""
@@ -64,6 +66,14 @@ class Session:
         self._stderr, self._stdout = job.Drain(self._child.stderr), job.Lines(self._child.stdout)
 
     def _make(self, what, options, progress, log, cancel):
+        if not self._at_work.acquire(blocking=False):
+            raise InvalidInput("the session is at work in another thread")
+        try:
+            return self._made(what, options, progress, log, cancel)
+        finally:
+            self._at_work.release()
+
+    def _made(self, what, options, progress, log, cancel):
         from . import option_table
 
         more = option_table.plain(options)

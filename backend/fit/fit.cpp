@@ -53,7 +53,6 @@ bool hollow(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacob
 struct Score {
   int inverted = 0;  // or flat, which untangling takes for the same
   int hollow = 0;
-  bool positive = true;  // no cell is inverted, flat ones aside
   double worst = 0, mean = 0;
   bool better_than(const Score& other, double goal) const {
     if (inverted != other.inverted) return inverted < other.inverted;
@@ -138,7 +137,7 @@ class Fitting {
       untangle(around(kFlat, 2), 50, mending, kRounds);
       restore();
     }
-    if (score_.positive) square_up(whole_, 2, 20);
+    if (score_.worst > 0) square_up(whole_, 2, 20);
     // The worst cell will be worked on, the mean hardly changes any more.
     const Prospect result{score_.inverted, -score_.mean - kWorst * score_.worst};
     best_ = best;
@@ -170,7 +169,7 @@ class Fitting {
     with_skin_ = false;
     restore();
     monitor_.progress("fit", 0.5);
-    if (score_.positive) {
+    if (score_.worst > 0) {
       square_up();
       if (score_.hollow > 0) fill_hollow();
       monitor_.progress("fit", 0.8);
@@ -201,7 +200,6 @@ class Fitting {
     for (const Hex& hex : mesh_.hexes) {
       const double value = scaled_jacobian(mesh_.points, hex);
       score.inverted += value <= kFlat;
-      score.positive = score.positive && value > 0;
       score.hollow += hollow(mesh_.points, hex, value);
       score.worst = std::min(score.worst, value);
       score.mean += value;

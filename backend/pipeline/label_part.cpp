@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "label/order.h"
 #include "pipeline/realise.h"
+#include "pipeline/stage_clock.h"
 #include "pipeline/structures.h"
 
 namespace polycube {
@@ -34,40 +35,37 @@ std::optional<StageFailed> unrealisable(const LabelledPart& part) {
 
 LabelledPart label_part(const CadModel& model, const MeshOptions& given, const Monitor& monitor, Until until) {
   LabelledPart part;
-  auto start = Monitor::Clock::now();
-  const auto book = [&](const std::string& name) {
-    const auto now = Monitor::Clock::now();
-    part.stages.push_back({name, std::chrono::duration<double>(now - start).count()});
-    start = now;
-  };
+  StageClock clock(monitor);
   const Pose pose = canonical_pose(model, given.frame);
   const MeshOptions options = pose.posed(given);
   const double size = effective_size(options, pose.model.diagonal());
-  part.tets = tetrahedralise(pose.model, tet_options(size, pose.model.diagonal()), monitor);
+  part.tets = clock.stage("tet", [&] { return tetrahedralise(pose.model, tet_options(size, pose.model.diagonal()), monitor); });
   pose.check_labels(part.tets, options.labels);
-  book("tet");
   const std::vector<char> left_out = smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
-  LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), left_out, monitor);
-  Labelled best = choice.labelled(choice.order().front());
-  part.tets = std::move(best.mesh);
-  part.labelling = std::move(best.labelling);
-  part.label_report = best.report;
-  part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
-  book("label");
+  clock.stage("label", [&] {
+    LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), left_out, monitor);
+    Labelled best = choice.labelled(choice.order().front());
+    part.tets = std::move(best.mesh);
+    part.labelling = std::move(best.labelling);
+    part.label_report = best.report;
+    part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
+  });
   if (until == Until::kMap) {
     DeformOptions deform_options;
     deform_options.merge = merge_distance(size, pose.model.diagonal());
     deform_options.threads = thread_count(options.threads);
-    try {
-      RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
-      part.map = std::move(realised.map);
-      part.flipped = realised.report.flipped;
-    } catch (const StageFailed& e) {
-      const std::optional<StageFailed> loop = unrealisable(part);
-      part.failure = loop ? *loop : e;
-    }
-    book("deform");
+    clock.stage("deform", [&] {
+      try {
+        RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
+        part.map = std::move(realised.map);
+        part.flipped = realised.report.flipped;
+      } catch (const StageFailed& e) {
+        const std::optional<StageFailed> loop = unrealisable(part);
+        part.failure = loop ? *loop : e;
+      }
+    });
   }
+  part.stages = clock.records();
   put_back(pose, part);
   return part;
 }

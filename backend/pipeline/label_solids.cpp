@@ -9,6 +9,7 @@
 #include "pipeline/conform_labels.h"
 #include "pipeline/label_part.h"
 #include "pipeline/solids.h"
+#include "pipeline/stage_clock.h"
 #include "pipeline/structures.h"
 #include "tet/classify.h"
 
@@ -95,24 +96,20 @@ LabelledPart label_solids(const Assembly& assembly, const MeshOptions& options, 
   std::iota(all.begin(), all.end(), 1);
   const ConformalModel model = conform(assembly, all, monitor);
   LabelledPart part;
-  auto start = Monitor::Clock::now();
-  const auto book = [&](const std::string& name) {
-    const auto now = Monitor::Clock::now();
-    part.stages.push_back({name, std::chrono::duration<double>(now - start).count()});
-    start = now;
-  };
-  const TetMesh tets = tetrahedralise(model.whole, model.solids, tet_options(effective_size(options, assembly.diagonal()), model.outer.diagonal()), monitor);
-  book("tet");
+  StageClock clock(monitor);
+  const TetMesh tets = clock.stage("tet", [&] {
+    return tetrahedralise(model.whole, model.solids, tet_options(effective_size(options, assembly.diagonal()), model.outer.diagonal()), monitor);
+  });
   LabelOptions how = label_options(options);
   how.frame_given = true;
   how.frame = options.frame.empty() ? find_frame(model.whole) : frame_of(options.frame);
   const GivenLabels given{labels_by_solid(options.labels, model, tets, how.frame), ignored_edges(options, model)};
-  const ConformalLabels labels = label_conformally(model, tets, how, given, 0, monitor);
+  const ConformalLabels labels = clock.stage("label", [&] { return label_conformally(model, tets, how, given, 0, monitor); });
   part.labelling.frame = how.frame;
   const Seen seen(model, labels, given.left_out, monitor);
   for (int s = 0; s < static_cast<int>(model.solids.size()); ++s) seen.add(s, part);
   part.failure = StageFailed("deform", "of several solids the labels are shown without a map");
-  book("label");
+  part.stages = clock.records();
   return part;
 }
 

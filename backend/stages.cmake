@@ -47,7 +47,7 @@ endif()
 polycube_stage(core)
 polycube_stage(cad USES core LINKS ${OCCT} ${ZIP_LIBRARY} SYSTEM ${OpenCASCADE_INCLUDE_DIR} ${ZIP_INCLUDE_DIR})
 # As OpenCASCADE itself is built: its faults become exceptions where they are to be caught (cad/occt.h).
-target_compile_definitions(polycube_cad PRIVATE OCC_CONVERT_SIGNALS)
+target_compile_definitions(polycube_cad PUBLIC OCC_CONVERT_SIGNALS)
 # Gmsh runs in a process of its own: only the worker links it.
 polycube_stage(tet USES core cad LINKS ${CMAKE_DL_LIBS})
 add_executable(polycube-tet ${PROJECT_SOURCE_DIR}/backend/tet/worker/main.cpp ${PROJECT_SOURCE_DIR}/backend/tet/protocol.cpp)

@@ -113,7 +113,7 @@ void find_touching(Assembly& assembly, const Monitor& monitor) {
     });
   } catch (const Standard_Failure& failure) {
     monitor.check();
-    throw InvalidInput("OpenCASCADE cannot tell where the solids touch: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot tell where the solids touch: " + reason_of(failure));
   }
 }
 

@@ -27,7 +27,7 @@ std::shared_ptr<const CadModel::Shape> described(const FoundSolid& found, const 
     shape->warnings.insert(shape->warnings.end(), found.warnings.begin(), found.warnings.end());
     return shape;
   } catch (const Standard_Failure& failure) {
-    throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot evaluate the shape: " + reason_of(failure));
   }
 }
 

@@ -268,7 +268,7 @@ ConformalModel conform(const Assembly& assembly, const std::vector<int>& solids,
     return catching_faults([&] { return ConformalBuilder::make(assembly, solids, monitor); });
   } catch (const Standard_Failure& failure) {
     monitor.check();
-    throw StageFailed("interfaces", "OpenCASCADE cannot join the solids: " + std::string(failure.GetMessageString()));
+    throw StageFailed("interfaces", "OpenCASCADE cannot join the solids: " + reason_of(failure));
   }
 }
 

@@ -312,7 +312,7 @@ FoundSolids find_solids(const FileShape& read, bool sew_faces, const Monitor& mo
     return catching_faults([&] { return find_solids_unguarded(read, monitor); });
   } catch (const Standard_Failure& failure) {
     monitor.check();
-    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + reason_of(failure));
   }
 }
 
@@ -321,7 +321,7 @@ FoundSolid find_solid(const FileShape& read, bool sew_faces, const Monitor& moni
     return catching_faults([&] { return find_solid_unguarded(read, sew_faces, monitor); });
   } catch (const Standard_Failure& failure) {
     monitor.check();
-    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + reason_of(failure));
   }
 }
 
@@ -330,7 +330,7 @@ void validate(const TopoDS_Shape& solid, const Numbering& numbers, const Monitor
     validate_unguarded(solid, numbers, monitor);
   } catch (const Standard_Failure& failure) {
     monitor.check();
-    throw InvalidInput("OpenCASCADE cannot check the shape: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot check the shape: " + reason_of(failure));
   }
 }
 

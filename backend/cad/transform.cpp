@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <gp_Trsf.hxx>
 
+#include "cad/occt.h"
 #include "cad/shape.h"
 #include "core/error.h"
 
@@ -54,7 +55,7 @@ CadModel CadModel::transformed(const Mat3& rotation, const Vec3& translation, do
     motion.Multiply(shape_->shape.Location().Transformation());
     shape = BRepBuilderAPI_Transform(placed.GetResult(), motion, true).Shape();
   } catch (const Standard_Failure& failure) {
-    throw InvalidInput("OpenCASCADE cannot move the shape: " + std::string(failure.GetMessageString()));
+    throw InvalidInput("OpenCASCADE cannot move the shape: " + reason_of(failure));
   }
   const auto numbered = [&](const TopoDS_Shape& solid) {
     // What OCCT changed about the solid must not take it out of the tables.

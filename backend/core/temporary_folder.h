@@ -6,10 +6,13 @@
 
 namespace polycube {
 
-/// A folder of its own under the system's temporary one, removed at the end.
+/// A folder of its own under the system's temporary one, removed at the end. Of a process that was killed the next one removes it: while its process lives
+/// a folder holds a file, kOwner, under a lock of flock(2), and one whose lock is free belongs to nobody.
 class TemporaryFolder {
  public:
-  /// Throws std::runtime_error where the folder cannot be made.
+  static constexpr const char* kOwner = "polycube.owner";
+
+  /// Throws InvalidInput where the folder cannot be made.
   TemporaryFolder();
   ~TemporaryFolder();
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -19,6 +22,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  int owner_ = -1;  ///< descriptor of the locked file
 };
 
 }  // namespace polycube

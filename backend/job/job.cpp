@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -12,6 +14,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "core/draft.h"
 #include "core/error.h"
@@ -260,10 +263,16 @@ MeshOptions options_from_json(const std::string& text) {
 int serve_job(const std::string& folder, JobKind kind) {
   setsid();
   end_by_faults();
-  return attempt(folder, [&] {
+  std::signal(SIGPIPE, SIG_IGN);  // a parent that is gone is noticed, and tidied up after
+  const pid_t parent = getppid();
+  const int status = attempt(folder, [&] {
     if (kind == JobKind::kSession) return serve_session(folder);
     work(folder, kind);
   });
+  // The parent was to remove it.
+  std::error_code ignored;
+  if (getppid() != parent) std::filesystem::remove_all(folder, ignored);
+  return status;
 }
 
 }  // namespace polycube

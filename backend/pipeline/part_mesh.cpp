@@ -1,5 +1,7 @@
 #include "pipeline/part_mesh.h"
 
+#include <cmath>
+
 #include "core/error.h"
 #include "fem/join.h"
 #include "pipeline/conform_mesh.h"
@@ -59,6 +61,13 @@ ConformalMesh mesh_unit(const Assembly& assembly, const std::vector<int>& unit, 
   }
 }
 
+/// Words for a number of cells that is not the one asked for.
+void tell_count(MeshReport& report, const MeshOptions& options) {
+  constexpr double kCountMiss = .15;  // what --hexes promises
+  if (options.hexes > 0 && std::abs(report.hexes - options.hexes) > kCountMiss * options.hexes)
+    report.warnings.push_back(std::to_string(report.hexes) + " hexahedra where " + std::to_string(options.hexes) + " were asked for");
+}
+
 PartMesh mesh_solids(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor) {
   const std::vector<std::vector<int>> units = units_of(assembly, options);
   std::vector<FemMesh> meshes;
@@ -106,6 +115,7 @@ PartMesh mesh_part(const std::function<Assembly()>& read, const MeshOptions& opt
     made = mesh_solids(assembly, options, monitor);
   }
   made.report.stages.insert(made.report.stages.begin(), {"read", read_seconds});
+  tell_count(made.report, options);
   return made;
 }
 
@@ -123,10 +133,15 @@ void AssemblySession::prepare(const Monitor& monitor) {
 }
 
 PartMesh AssemblySession::mesh(const MeshOptions& options, const Monitor& monitor) {
-  if (one_) return mesh_part(*one_, options, monitor);
-  check(options, assembly_.diagonal(), {assembly_.faces(), assembly_.edges(), assembly_.vertices(), static_cast<int>(assembly_.solids.size())});
-  check_by_solid(options, assembly_);
-  return mesh_solids(assembly_, options, monitor);
+  const auto mesh = [&] {
+    if (one_) return mesh_part(*one_, options, monitor);
+    check(options, assembly_.diagonal(), {assembly_.faces(), assembly_.edges(), assembly_.vertices(), static_cast<int>(assembly_.solids.size())});
+    check_by_solid(options, assembly_);
+    return mesh_solids(assembly_, options, monitor);
+  };
+  PartMesh made = mesh();
+  tell_count(made.report, options);
+  return made;
 }
 
 LabelledPart AssemblySession::labels(const MeshOptions& options, const Monitor& monitor, Until until) {

@@ -133,6 +133,16 @@ class MeshArrays(unittest.TestCase):
                 with self.assertRaises(ending):
                     polycube.mesh(box, **options)
                 self.assertEqual(os.listdir(folder), [])
+        # A script that is killed leaves its folder to the next one; one that lives keeps it.
+        script = "import sys, time; sys.path.insert(0, {!r}); import job_folder; print(job_folder.JobFolder({!r}).path, flush=True); time.sleep(600)"
+        script = script.format(os.path.dirname(job.__file__), folder)
+        with subprocess.Popen(["/usr/bin/python3", "-c", script], stdout=subprocess.PIPE, text=True) as other:
+            left = other.stdout.readline().strip()
+            polycube.mesh(box, size=5)
+            self.assertEqual(os.listdir(folder), [os.path.basename(left)])
+            other.kill()
+        polycube.mesh(box, size=5)
+        self.assertEqual(os.listdir(folder), [])
         for shape, options in ((box, {"size": object()}), (object(), {})):
             with self.assertRaises((TypeError, AttributeError)):
                 job.Job(shape, options)
@@ -723,13 +733,15 @@ class Helpers(unittest.TestCase):
         self.assertEqual(str(error), "label: two charts overlap (Face3, Face7)")
 
     def test_transaction_is_taken_back(self):
-        document = FreeCAD.newDocument()
-        document.UndoMode = 1
-        try:
-            with self.assertRaises(KeyError):
-                with api.transaction(document, "Test"):
-                    document.addObject("Part::Box", "Box")
-                    raise KeyError
-            self.assertEqual(document.Objects, [])
-        finally:
-            FreeCAD.closeDocument(document.Name)
+        for undo in (0, 1):
+            document = FreeCAD.newDocument()
+            document.UndoMode = undo
+            kept = document.addObject("Part::Box", "Kept")
+            try:
+                with self.assertRaises(KeyError):
+                    with api.transaction(document, "Test"):
+                        document.addObject("Part::Box", "Box")
+                        raise KeyError
+                self.assertEqual(document.Objects, [kept])
+            finally:
+                FreeCAD.closeDocument(document.Name)

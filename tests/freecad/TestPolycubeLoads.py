@@ -312,3 +312,27 @@ class Warnings(LoadTest):
         self.assertEqual(self.set_mesh(obj, result), [])
         with mock.patch.object(objects, "GROUPS_ARE_ASKED", False):
             self.assertTrue(any("heat flux" in line for line in self.set_mesh(obj, result)))
+
+    def test_what_the_mesh_does_not_take_is_told_when_freecad_writes(self):
+        """A seam has no mesh edges, and a rim beside it takes only its share."""
+        part = self.part(Part.makeCylinder(10, 20))
+        edges = part.Shape.Edges
+        seam = "Edge{}".format(next(n for n, edge in enumerate(edges, 1) if not edge.Closed))
+        rim = "Edge{}".format(next(n for n, edge in enumerate(edges, 1) if edge.Closed and edge.CenterOfMass.z > 19))
+        ends = {round(face.CenterOfMass.z): "Face{}".format(n) for n, face in enumerate(part.Shape.Faces, 1)}
+        analysis, _ = calculix.make_analysis(part, [ends[0]])
+        polycube.create_fem_mesh(part, size=6, analysis=analysis)
+        for names, arriving in (([seam], 0), ([rim, seam], 1000 * 20 * math.pi / (20 * math.pi + 20)), ([rim], 1000)):
+            with self.subTest(names):
+                force = self.add(analysis, "Force", part, *names, Force=1000, Direction=(part, [ends[20]]))
+                self.document.recompute()
+                with mock.patch.object(load_sets, "FreeCAD") as freecad:
+                    self.written(analysis)
+                lines = [call.args[0] for call in freecad.Console.PrintWarning.call_args_list]
+                if arriving < 1000:
+                    self.assertEqual(len(lines), 1)
+                    told = re.fullmatch(r"Force: only ([0-9.]+) of 1000 N are where the mesh is\n|Force: nothing of the mesh is where it acts\n", lines[0])
+                    self.assertAlmostEqual(float(told.group(1) or 0), arriving, delta=10)  # FreeCAD measures chords
+                else:
+                    self.assertEqual(lines, [])
+                self.document.removeObject(force.Name)

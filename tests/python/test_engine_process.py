@@ -99,6 +99,14 @@ class EngineProcess(FolderTest):
             time.sleep(0.01)
         else:
             self.fail("the engine goes on")
+        self.assertEqual(len(os.listdir(self.temporary)), 1)
+        # The next run removes what it left, and nothing else.
+        others = {name: os.path.join(self.temporary, name) for name in ("polycube-meshes", "other")}
+        for path in others.values():
+            os.mkdir(path)
+        run = subprocess.run([PROGRAM, "mesh", self.save(box()), "-o", self.path("a.inp")], env=dict(os.environ, TMPDIR=self.temporary))
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(set(os.listdir(self.temporary)), set(others))
 
 
 if __name__ == "__main__":

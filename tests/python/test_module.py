@@ -128,7 +128,13 @@ class Sessions(unittest.TestCase):
             self.assertFalse({"read", "tet", "deform", "blocks"} & {stage["name"] for stage in mesh.report["stages"]})
         again = self.session.mesh(size=1)
         np.testing.assert_array_equal(again.nodes, fine.nodes)
-        self.assertLess(len(self.session.mesh(hexes=50).hexes), len(fine.hexes))
+        few = self.session.mesh(hexes=50)
+        self.assertLess(len(few.hexes), len(fine.hexes))
+        self.assertEqual([line for line in few.report["warnings"] if "asked for" in line], [])
+        # Less than the layers that a wall has to have.
+        told = "{} hexahedra where 1 were asked for"
+        for mesh in (self.session.mesh(hexes=1), _polycube.mesh(brep=box().exportBrepToString(), hexes=1)):
+            self.assertIn(told.format(len(mesh.hexes)), mesh.report["warnings"])
         self.assertEqual(self.session.mesh(order=2).order, 2)
 
     def test_errors_leave_it_usable(self):

@@ -303,18 +303,22 @@ def with_constraints(options, part, analysis):
 
 @contextmanager
 def transaction(document, name):
-    """One undo step, taken back on an error; part of the caller's step where one is open already."""
+    """One undo step, taken back on an error; part of the caller's step where one is open already. Without undo in the document what is new in it goes."""
     # A document reports a transaction only once it has changed something; the application knows of it at once.
     if document.HasPendingTransaction or FreeCAD.getActiveTransaction():
         yield
         return
     with _active(document):
+        before = {obj.Name for obj in document.Objects}
         document.openTransaction(name)
         try:
             yield
         except BaseException:
             document.abortTransaction()
             FreeCAD.closeActiveTransaction(True)
+            if not document.UndoMode:
+                for new in [obj.Name for obj in document.Objects if obj.Name not in before]:
+                    document.removeObject(new)
             raise
         document.commitTransaction()
         FreeCAD.closeActiveTransaction()

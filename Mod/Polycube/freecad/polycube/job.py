@@ -9,15 +9,14 @@ import math
 import os
 import queue
 import re
-import shutil
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 
 from . import engine, preferences, result
 from .errors import Cancelled, InvalidInput, StageFailed
+from .job_folder import JobFolder
 
 # From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
 # (kGrace in backend/cli/supervise.cpp), within the 2 s after the limit that the contract gives.
@@ -38,7 +37,8 @@ class Job:
         self.stage = ""
         self.limit = options.get("time_limit")
         self._mesher = engine.find()
-        self.folder = tempfile.mkdtemp(prefix="polycube-job-", dir=preferences.folder())
+        self._folder = JobFolder(preferences.folder())
+        self.folder = self._folder.path
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
                 file.write(shape.exportBrepToString())
@@ -54,7 +54,7 @@ class Job:
         self.close()
 
     def close(self):
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self._folder.close()
 
     def command(self):
         """Program and arguments of the child process."""

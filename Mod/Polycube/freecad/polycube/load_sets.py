@@ -2,12 +2,31 @@
 
 FreeCAD searches for them in space, within 1e-7 mm. That misses mid-edge nodes which could not be on the CAD, finds no sides of hexahedra for heat flux and
 section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. The groups know all of it, whenever
-the constraint was made. `install` puts them before the search, for our meshes only.
+the constraint was made. `install` puts them before the search, for our meshes only, and has the Report view tell of a load that the mesh does not take.
 """
 
 import functools
 
+import FreeCAD
+
 from . import compat, shapes
+
+#: what the search for nodes and mesh faces leaves in the entry of a constraint
+_FOUND = (
+    "Nodes",
+    "NodeLoadTable",
+    "PressureFaces",
+    "HeatFluxFaceTable",
+    "SectionPrintFaces",
+    "ContactSlaveFaces",
+    "ContactMasterFaces",
+    "TieSlaveFaces",
+    "TieMasterFaces",
+)
+#: those of them that are pairs of a title and what is there
+_TITLED = ("NodeLoadTable", "PressureFaces", "HeatFluxFaceTable")
+#: share of a force that may be missing: FreeCAD's own search integrates over triangles
+_FORCE_MISS = 0.01
 
 #: corners of the sides of a hexahedron in SMESH's order, by their numbers in the files for CalculiX that FreeCAD writes
 _SIDES = {1: (4, 5, 6, 7), 2: (0, 1, 2, 3), 3: (1, 2, 5, 6), 4: (2, 3, 6, 7), 5: (0, 3, 4, 7), 6: (0, 1, 4, 5)}
@@ -26,10 +45,10 @@ def install(grouped_shape):
         from femmesh.meshsetsgetter import MeshSetsGetter
     except ImportError:
         return False
-    names = ("__init__", "get_constraints_force_nodeloads", "get_constraints_pressure_faces")
+    names = ("__init__", "get_constraints_force_nodeloads", "get_constraints_pressure_faces", "get_mesh_sets")
     if not all(hasattr(MeshSetsGetter, name) for name in names):
         return False
-    for name, wrapper in zip(names, (functools.partial(_with_groups, grouped_shape), _whole_forces, _whole_pressures)):
+    for name, wrapper in zip(names, (functools.partial(_with_groups, grouped_shape), _whole_forces, _whole_pressures, _with_losses_told)):
         setattr(MeshSetsGetter, name, wrapper(getattr(MeshSetsGetter, name)))
     return True
 
@@ -203,6 +222,39 @@ def _replaced(original, members, fill):
             setattr(self.member, members, everyone)
 
     return get
+
+
+def _with_losses_told(original):
+    """Warns of constraints that the search finds nothing for: FreeCAD's writer leaves them out without a word, as a force on the seam of a cylinder."""
+
+    @functools.wraps(original)
+    def get(self):
+        original(self)
+        if not isinstance(self.femmesh, GroupedMesh):
+            return
+        for entries in vars(self.member).values():
+            for entry in entries if isinstance(entries, list) else ():
+                lost = loss(entry)
+                if lost:
+                    FreeCAD.Console.PrintWarning("{}: {}\n".format(entry["Object"].Label, lost))
+
+    return get
+
+
+def loss(entry):
+    """What of a constraint's entry the mesh does not take, as a sentence; empty where it takes all."""
+    for name in (name for name in _FOUND if name in entry):
+        found = entry[name]
+        if name in _TITLED:
+            found = [part for _, there in found for part in there]
+        if not found:
+            return "nothing of the mesh is where it acts"
+    if "NodeLoadTable" in entry:
+        asked = float(compat.newtons(entry["Object"]))
+        arrived = float(sum(load for _, loads in entry["NodeLoadTable"] for load in loads.values()))
+        if abs(asked - arrived) > _FORCE_MISS * abs(asked):
+            return "only {:.4g} of {:.4g} N are where the mesh is".format(arrived, asked)
+    return ""
 
 
 def references(constraint):

@@ -13,20 +13,8 @@ import FreeCAD
 
 from . import api, balance, ccx, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
 from .errors import Cancelled, InvalidInput, SolverFailed
-from .load_sets import GroupedMesh
+from .load_sets import GroupedMesh, loss
 
-#: what FreeCAD's search for nodes and mesh faces leaves in the entry of a constraint
-_FOUND = (
-    "Nodes",
-    "NodeLoadTable",
-    "PressureFaces",
-    "HeatFluxFaceTable",
-    "SectionPrintFaces",
-    "ContactSlaveFaces",
-    "ContactMasterFaces",
-    "TieSlaveFaces",
-    "TieMasterFaces",
-)
 #: node set of all that holds the part
 SUPPORTS = "POLYCUBE_SUPPORTS"
 #: kinds of analysis whose reactions are printed
@@ -244,16 +232,11 @@ def _check_captured(analysis, obj):
 
 
 def _check_found(entries):
-    """Raises InvalidInput where a constraint finds nothing in the mesh: it would be lost without a word."""
+    """Raises InvalidInput where a constraint, or part of its load, finds nothing in the mesh: it would be lost without a word."""
     for entry in (entry for same in entries.values() for entry in same):
-        for name in _FOUND:
-            if name not in entry:
-                continue
-            found = entry[name]
-            if name in ("NodeLoadTable", "PressureFaces", "HeatFluxFaceTable"):  # pairs of a title and what is there
-                found = [part for _, there in found for part in there]
-            if not found:
-                raise InvalidInput("{}: nothing of the mesh is where it acts".format(entry["Object"].Label))
+        lost = loss(entry)
+        if lost:
+            raise InvalidInput("{}: {}".format(entry["Object"].Label, lost))
 
 
 def _cards(tools, mesh, member, entries, special):

@@ -92,16 +92,24 @@ std::string text_of(const std::string& path) {
   return std::move(buffer).str();
 }
 
+/// Where the string or comment ends that begins at `from`. As for OCCT, a string goes on over quotes after which neither a comma nor a parenthesis comes.
+std::size_t end_of_text(const std::string& step, std::size_t from) {
+  const std::size_t last = step.size() - 1;
+  if (step[from] != '\'') return std::min(step.find("*/", from + 2), last - 1) + 1;
+  for (std::size_t quote = step.find('\'', from + 1); quote != std::string::npos; quote = step.find('\'', quote + 1)) {
+    const std::size_t next = step.find_first_not_of("\" \n\r", quote + 1);
+    if (next != std::string::npos && (step[next] == ',' || step[next] == ')')) return quote;
+  }
+  return last;
+}
+
 /// A STEP file without its strings and comments.
 std::string statements_of(std::string step) {
-  const auto blank = [&](std::size_t from, std::string_view end) {
-    const std::size_t to = std::min(step.find(end, from + end.size()), step.size() - 1);
-    std::fill(step.begin() + static_cast<std::ptrdiff_t>(from), step.begin() + static_cast<std::ptrdiff_t>(to) + 1, ' ');
-    return to;
-  };
   for (std::size_t i = 0; i < step.size(); ++i) {
-    if (step[i] == '\'') i = blank(i, "'");
-    if (step.compare(i, 2, "/*") == 0) i = blank(i, "*/");
+    if (step[i] != '\'' && step.compare(i, 2, "/*") != 0) continue;
+    const std::size_t end = end_of_text(step, i);
+    std::fill(step.begin() + static_cast<std::ptrdiff_t>(i), step.begin() + static_cast<std::ptrdiff_t>(end) + 1, ' ');
+    i = end;
   }
   return step;
 }

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "cad/occt.h"
 #include "cad/shape.h"
@@ -67,6 +68,18 @@ Numbering numbering(const TopoDS_Shape& whole, const TopoDS_Shape& solid, const 
     for (int& number : numbers[dim]) number = number == 0 ? ++next : number;
   }
   return numbers;
+}
+
+/// The numbers of a solid in the whole.
+Numbering part_of(const Numbering& numbers, const TopoDS_Shape& whole, const TopoDS_Shape& solid) {
+  Numbering own;
+  for (std::size_t dim = 0; dim < 3; ++dim) {
+    TopTools_IndexedMapOfShape all, map;
+    TopExp::MapShapes(whole, kKinds[dim], all);
+    TopExp::MapShapes(solid, kKinds[dim], map);
+    for (int i = 1; i <= map.Extent(); ++i) own[dim].push_back(numbers[dim][static_cast<std::size_t>(all.FindIndex(map(i))) - 1]);
+  }
+  return own;
 }
 
 std::string name_of(const Numbering& numbers, int dim, int at) { return name({dim, numbers[static_cast<std::size_t>(dim)][static_cast<std::size_t>(at) - 1]}); }
@@ -180,28 +193,52 @@ std::vector<TopoDS_Shell> shells_of(const TopoDS_Shape& shape) {
   return shells;
 }
 
-/// One solid of closed shells: one of them, and the others inside it as voids.
-TopoDS_Solid solid_of(const std::vector<TopoDS_Shell>& shells) {
-  std::vector<std::pair<double, TopoDS_Solid>> solids;
+/// Solids of closed shells: of nested ones every second is a void of the one around it.
+std::vector<TopoDS_Solid> solids_of(const std::vector<TopoDS_Shell>& shells) {
+  struct Filled {
+    TopoDS_Solid solid;  ///< as if nothing were inside
+    double volume = 0;
+    int depth = 0;    ///< shells around it
+    int parent = -1;  ///< the innermost of them
+  };
+  std::vector<Filled> all;
   for (const TopoDS_Shell& shell : shells) {
     TopoDS_Solid solid = BRepBuilderAPI_MakeSolid(shell);
     BRepLib::OrientClosedSolid(solid);
-    solids.emplace_back(volume_of(solid), solid);
+    all.push_back({solid, volume_of(solid)});
   }
-  std::stable_sort(solids.begin(), solids.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  TopoDS_Solid result = solids.front().second;
-  BRepClass3d_SolidClassifier outer(result);
-  for (std::size_t i = 1; i < solids.size(); ++i) {
-    const TopExp_Explorer vertex(solids[i].second, TopAbs_VERTEX), shell(solids[i].second, TopAbs_SHELL);
-    outer.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())), Precision::Confusion());
-    if (outer.State() != TopAbs_IN) throw InvalidInput("the shape's faces sew to " + std::to_string(solids.size()) + " solids; one is needed");
-    BRep_Builder().Add(result, shell.Current().Reversed());
+  std::stable_sort(all.begin(), all.end(), [](const Filled& a, const Filled& b) { return a.volume > b.volume; });
+  for (std::size_t outer = 0; outer < all.size(); ++outer) {
+    BRepClass3d_SolidClassifier classifier(all[outer].solid);
+    for (std::size_t i = outer + 1; i < all.size(); ++i) {
+      const TopExp_Explorer vertex(all[i].solid, TopAbs_VERTEX);
+      classifier.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())), Precision::Confusion());
+      if (classifier.State() != TopAbs_IN) continue;
+      ++all[i].depth;
+      all[i].parent = static_cast<int>(outer);
+    }
+  }
+  std::vector<TopoDS_Solid> result;
+  std::vector<std::size_t> place(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].depth % 2 == 0) {
+      place[i] = result.size();
+      result.push_back(all[i].solid);
+    } else {
+      const TopExp_Explorer shell(all[i].solid, TopAbs_SHELL);
+      BRep_Builder().Add(result[place[static_cast<std::size_t>(all[i].parent)]], shell.Current().Reversed());
+    }
   }
   return result;
 }
 
-/// The solid that the shape's faces sew to within the distance. Throws InvalidInput where there is none.
-FoundSolid sew(const FileShape& read, double distance, const Monitor& monitor) {
+struct Sewn {
+  FoundSolids found;
+  int open_faces = 0;  ///< left out
+};
+
+/// The solids that the shape's faces sew to within the distance. Throws InvalidInput where there is none.
+Sewn sew(const FileShape& read, double distance, const Monitor& monitor) {
   BRepBuilderAPI_Sewing sewing(distance);
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(read.shape, TopAbs_FACE, faces);
@@ -234,26 +271,48 @@ FoundSolid sew(const FileShape& read, double distance, const Monitor& monitor) {
     throw InvalidInput(start + "it is open at " + name_of(numbers, 1, edges.FindIndex(open_edge)));
   }
   if (shells.empty()) throw InvalidInput(start + "no shell comes of it");
-  FoundSolid found{solid_of(shells), {}, {}};
-  found.numbers = numbering(read.shape, found.solid, became);
-  found.warnings.push_back("the shape is no solid: its " + plural(count(found.solid, TopAbs_FACE), "face is", "faces are") + " sewn to one within " +
-                           number_text(distance) + " mm");
+  FoundSolids found;
+  TopoDS_Compound whole;
+  BRep_Builder().MakeCompound(whole);
+  for (const TopoDS_Solid& solid : solids_of(shells)) {
+    found.solids.push_back({solid, {}, {}});
+    BRep_Builder().Add(whole, solid);
+  }
+  const Numbering all = numbering(read.shape, whole, became);
+  for (FoundSolid& solid : found.solids) solid.numbers = part_of(all, whole, solid.solid);
+  const auto first_face = [](const FoundSolid& solid) { return *std::min_element(solid.numbers[2].begin(), solid.numbers[2].end()); };
+  std::sort(found.solids.begin(), found.solids.end(), [&](const FoundSolid& a, const FoundSolid& b) { return first_face(a) < first_face(b); });
+  const bool one = found.solids.size() == 1;
+  found.warnings.push_back("the shape is no solid: its " + plural(count(whole, TopAbs_FACE), "face is", "faces are") + " sewn to " +
+                           (one ? "one" : std::to_string(found.solids.size()) + " solids") + " within " + number_text(distance) + " mm");
   const std::string left_out = beside(open_faces, count(read.shape, TopAbs_EDGE, TopAbs_FACE), count(read.shape, TopAbs_VERTEX, TopAbs_EDGE));
   if (!left_out.empty()) found.warnings.push_back(left_out);
-  return found;
+  return {std::move(found), open_faces};
 }
 
-FoundSolid sew(const FileShape& read, const Monitor& monitor) {
-  const std::vector<double> distances = sewing_distances(read);
-  for (std::size_t i = 0;; ++i) {
+/// Within the least distance that leaves the fewest faces out.
+FoundSolids sew(const FileShape& read, const Monitor& monitor) {
+  std::optional<Sewn> best;
+  std::optional<InvalidInput> refusal;
+  for (const double distance : sewing_distances(read)) {
     try {
-      FoundSolid found = sew(read, distances[i], monitor);
-      validate(found.solid, found.numbers, monitor);
-      return found;
-    } catch (const InvalidInput&) {
-      if (i + 1 == distances.size()) throw;
+      Sewn sewn = sew(read, distance, monitor);
+      for (const FoundSolid& solid : sewn.found.solids) validate(solid.solid, solid.numbers, monitor);
+      if (!best || sewn.open_faces < best->open_faces) best = std::move(sewn);
+      if (best->open_faces == 0) break;
+    } catch (const InvalidInput& error) {
+      refusal = error;
     }
   }
+  if (!best) throw InvalidInput(*refusal);
+  return std::move(best->found);
+}
+
+/// Throws InvalidInput where there is no face to sew, or sewing is not wanted.
+void check_sewing(const TopoDS_Shape& shape, bool sew_faces) {
+  if (shape.IsNull()) throw InvalidInput("the shape is empty");
+  if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the shape is empty: it has no face");
+  if (!sew_faces) throw InvalidInput("the shape is a shell or loose faces, not a solid");
 }
 
 FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Monitor& monitor) {
@@ -262,9 +321,11 @@ FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Mon
   const int solids = count(shape, TopAbs_SOLID);
   if (solids > 1) throw InvalidInput("the shape holds " + std::to_string(solids) + " solids; one is needed");
   if (solids == 0) {
-    if (count(shape, TopAbs_FACE) == 0) throw InvalidInput("the shape is empty: it has no face");
-    if (!sew_faces) throw InvalidInput("the shape is a shell or loose faces, not a solid");
-    return sew(read, monitor);
+    check_sewing(shape, sew_faces);
+    FoundSolids sewn = sew(read, monitor);
+    if (sewn.solids.size() > 1) throw InvalidInput("the shape's faces sew to " + std::to_string(sewn.solids.size()) + " solids; one is needed");
+    sewn.solids.front().warnings = std::move(sewn.warnings);
+    return sewn.solids.front();
   }
   FoundSolid found{shape, {}, {}};
   int times = 0;
@@ -282,8 +343,16 @@ FoundSolid find_solid_unguarded(const FileShape& read, bool sew_faces, const Mon
   return found;
 }
 
-FoundSolids find_solids_unguarded(const FileShape& read, const Monitor& monitor) {
+FoundSolids find_solids_unguarded(const FileShape& read, bool sew_faces, const Monitor& monitor) {
   const TopoDS_Shape& shape = read.shape;
+  if (shape.IsNull() || count(shape, TopAbs_SOLID) == 0) {
+    check_sewing(shape, sew_faces);
+    FoundSolids sewn = sew(read, monitor);
+    // Those of one solid are its own.
+    if (sewn.solids.size() == 1) sewn.solids.front().warnings = std::move(sewn.warnings);
+    return sewn;
+  }
+  if (count(shape, TopAbs_SOLID) == 1) return {{find_solid_unguarded(read, sew_faces, monitor)}, {}};
   FoundSolids found;
   TopTools_IndexedMapOfShape solids;
   TopExp::MapShapes(shape, TopAbs_SOLID, solids);
@@ -307,9 +376,8 @@ FoundSolids find_solids_unguarded(const FileShape& read, const Monitor& monitor)
 }  // namespace
 
 FoundSolids find_solids(const FileShape& read, bool sew_faces, const Monitor& monitor) {
-  if (read.shape.IsNull() || count(read.shape, TopAbs_SOLID) < 2) return {{find_solid(read, sew_faces, monitor)}};
   try {
-    return catching_faults([&] { return find_solids_unguarded(read, monitor); });
+    return catching_faults([&] { return find_solids_unguarded(read, sew_faces, monitor); });
   } catch (const Standard_Failure& failure) {
     monitor.check();
     throw InvalidInput("OpenCASCADE cannot check the shape: " + reason_of(failure));

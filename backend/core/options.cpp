@@ -43,6 +43,7 @@ T parse_number(const OptionSpec& option, const std::string& text) {
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(static_cast<double>(value))) {
+    if (error == std::errc::result_out_of_range) throw InvalidInput(flag(option.name) + ": '" + text + "' is out of range");
     const char* kind = std::is_same_v<T, int> ? "a whole number" : "a number";
     throw InvalidInput(flag(option.name) + ": '" + text + "' is not " + kind);
   }

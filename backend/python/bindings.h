@@ -5,6 +5,7 @@
 #include <pybind11/pybind11.h>
 
 #include <atomic>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 
@@ -44,12 +45,12 @@ class Callbacks {
 MeshOptions options_from(const py::kwargs& given);
 
 /// Exactly one of path and brep must be given. Throws InvalidInput.
-inline Assembly read_part(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+inline Assembly read_part(const std::optional<std::filesystem::path>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
                           const MeshOptions& options, const Monitor& monitor) {
   if (path.has_value() == brep.has_value()) throw InvalidInput("give either path or brep");
   if (object && brep) throw InvalidInput("object is for FreeCAD documents only");
   const ReadOptions how{.object = object.value_or(""), .sew = options.sew};
-  return path ? Assembly::read(*path, how, monitor) : Assembly::from_brep(*brep, how, monitor);
+  return path ? Assembly::read(path->string(), how, monitor) : Assembly::from_brep(*brep, how, monitor);
 }
 
 /// Runs `work` with the GIL released and the time limit of the options, and turns what callbacks threw into what comes out.

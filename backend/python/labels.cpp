@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "core/charts.h"
 #include "pipeline/inspect.h"
@@ -7,7 +8,7 @@
 namespace polycube::python {
 namespace {
 
-py::dict make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+py::dict make(const std::optional<std::filesystem::path>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
               const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);

@@ -1,4 +1,5 @@
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include "core/error.h"
 #include "pipeline/part_mesh.h"
@@ -26,8 +27,8 @@ py::array_t<double> per_cell(const Mesh& mesh, double (*measure)(const std::vect
 
 py::object report(const Mesh& mesh) { return py::module_::import("json").attr("loads")(to_json(mesh.report)); }
 
-Mesh make(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object, const py::object& progress,
-          const py::object& log, const py::object& cancel, const py::kwargs& given) {
+Mesh make(const std::optional<std::filesystem::path>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
+          const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   return run_released(callbacks, options,
@@ -77,8 +78,9 @@ class PartSession {
   std::mutex at_work_;
 };
 
-std::unique_ptr<PartSession> prepare(const std::optional<std::string>& path, const std::optional<std::string>& brep, const std::optional<std::string>& object,
-                                     const py::object& progress, const py::object& log, const py::object& cancel, const py::kwargs& given) {
+std::unique_ptr<PartSession> prepare(const std::optional<std::filesystem::path>& path, const std::optional<std::string>& brep,
+                                     const std::optional<std::string>& object, const py::object& progress, const py::object& log, const py::object& cancel,
+                                     const py::kwargs& given) {
   const MeshOptions options = options_from(given);
   Callbacks callbacks(progress, log, cancel);
   Assembly assembly = run_released(callbacks, options, [&] { return read_part(path, brep, object, options, callbacks.monitor); });
@@ -87,9 +89,9 @@ std::unique_ptr<PartSession> prepare(const std::optional<std::string>& path, con
   return session;
 }
 
-void write_mesh(const Mesh& mesh, const std::string& path, const std::optional<std::string>& element_type) {
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path, const std::optional<std::string>& element_type) {
   const py::gil_scoped_release released;
-  write(mesh.fem, path, element_type.value_or(effective_element_type(mesh.report.options)), Monitor());
+  write(mesh.fem, path.string(), element_type.value_or(effective_element_type(mesh.report.options)), Monitor());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 """The compiled module by itself, in plain Python."""
 
 import math
+import pathlib
 import pickle
 import unittest
 
@@ -114,6 +115,18 @@ class Mesh(FolderTest):
         for text in ("", "nonsense", box().Faces[0].exportBrepToString()):
             with self.subTest(text[:10]), self.assertRaises(_polycube.InvalidInput):
                 _polycube.mesh(brep=text)
+
+
+class Paths(FolderTest):
+    def test_paths_are_text_or_path_objects(self):
+        part = pathlib.Path(self.save(box()))
+        mesh = _polycube.mesh(path=part, size=2, order=1)
+        np.testing.assert_array_equal(mesh.nodes, _polycube.mesh(path=str(part), size=2, order=1).nodes)
+        mesh.write(part.with_suffix(".inp"))
+        self.assertTrue(part.with_suffix(".inp").exists())
+        for refused in (pathlib.Path(self.path("missing.step")), pathlib.Path()):
+            with self.subTest(refused), self.assertRaises(_polycube.InvalidInput):
+                _polycube.mesh(path=refused)
 
 
 class Sessions(unittest.TestCase):

@@ -39,6 +39,24 @@ TEST(Assembly, NumbersAreThoseOfTheWhole) {
   EXPECT_NEAR(two.volume(), 332, 1e-9);
 }
 
+// As files of surfaces alone hold parts: in the order of the file, with a solid in the void of another.
+TEST(Assembly, FacesSewToSeveralSolids) {
+  const std::string small = shapes::taken_apart(shapes::box(1, 2, 3)), inner = shapes::taken_apart(shapes::moved(shapes::box(1, 1, 1), 0, 104, 4, 4));
+  const std::string hollow = shapes::taken_apart(shapes::moved(shapes::hollow_box(10), 0, 100, 0, 0));
+  const Assembly three = assembly(shapes::compound(small, shapes::compound(hollow, inner)));
+  ASSERT_EQ(three.solids.size(), 3u);
+  const double hollow_volume = CadModel::from_brep(shapes::hollow_box(10)).volume();
+  EXPECT_NEAR(three.solids[0].volume(), 6, 1e-9);
+  EXPECT_NEAR(three.solids[1].volume(), hollow_volume, 1e-6);
+  EXPECT_NEAR(three.solids[2].volume(), 1, 1e-9);
+  EXPECT_THAT(three.solids[0].faces(), ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(three.faces().size(), 24u);
+  EXPECT_THAT(three.warnings, ElementsAre(HasSubstr("24 faces are sewn to 3 solids")));
+  const TestFile iges("two.igs");
+  shapes::write_iges(box_on_box(), iges.path());
+  EXPECT_THAT(refusal([&] { CadModel::read(iges.path()); }), HasSubstr("solids"));
+}
+
 TEST(Assembly, FacesThatTouchInPartAreAnInterface) {
   const Assembly two = assembly(box_on_box());
   ASSERT_EQ(two.interfaces.size(), 1u);

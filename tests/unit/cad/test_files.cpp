@@ -187,8 +187,9 @@ TEST(Files, FaultsOfTheSolidAreRefused) {
   }
 }
 
-/// Without the date and the running number that OCCT's writers put in.
-std::string undated(const std::string& text) {
+/// Without the date and the running numbers that OCCT's writers put in.
+std::string undated(const std::string& made) {
+  const std::string text = std::regex_replace(made, std::regex("'Post [0-9]+'|'[^']*-made\\.step'"), "'Part'");
   const std::string dated = std::regex_replace(text, std::regex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9:]{8}|15H[0-9]{8}\\.[0-9]{6}"), "15H20000101.000000");
   return std::regex_replace(dated, std::regex("translator [0-9]+\\.[0-9]+ [0-9.]+"), "translator");
 }
@@ -248,6 +249,9 @@ TEST(Files, TwoEntitiesOfOneNumberAreRefused) {
   EXPECT_THAT(refusal_of_step(with_entities(step, again)), HasSubstr("two entities #7"));
   EXPECT_THAT(refusal_of_step(with_entities(step, "/* " + again + " */")), "accepted");
   EXPECT_THAT(refusal_of_step(replaced(step, "PRODUCT('", "PRODUCT('#7 = 7 ")), "accepted");
+  // A quote too many does not turn the rest of the file inside out.
+  EXPECT_THAT(refusal_of_step(with_entities(replaced(step, "PRODUCT('", "PRODUCT('it's "), again)), HasSubstr("two entities #7"));
+  EXPECT_THAT(refusal_of_step(replaced(step, "PRODUCT('", "PRODUCT('it's #7 = 7 ")), "accepted");
 }
 
 TEST(Files, NumbersOutOfRangeAreRefused) {

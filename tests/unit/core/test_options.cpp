@@ -21,6 +21,18 @@ std::string complaint(const Given& given) {
   return "";
 }
 
+TEST(Options, NumbersOutOfRangeAreToldAsThat) {
+  for (const auto& [name, text] : {std::pair{"hexes", "99999999999999"}, std::pair{"size", "1e400"}}) {
+    std::string told;
+    try {
+      parse_options({{name, text}});
+    } catch (const InvalidInput& error) {
+      told = error.what();
+    }
+    EXPECT_EQ(told, "--" + std::string(name) + ": '" + text + "' is out of range");
+  }
+}
+
 TEST(Options, DefaultsAreValidAndReadBack) {
   const MeshOptions defaults;
   EXPECT_NO_THROW(check(defaults));

@@ -1,6 +1,7 @@
 # polycube_stage(NAME USES <earlier stages> LINKS <libraries, private>): the static library polycube_NAME from backend/NAME/*.cpp
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(OpenCASCADE REQUIRED)
+find_package(TBB REQUIRED)
 find_package(Threads REQUIRED)
 find_package(MPI REQUIRED COMPONENTS C)  # the headers of Debian's libmed include those of its HDF5, and these MPI's
 find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
@@ -44,7 +45,7 @@ else()
   list(APPEND OCCT TKDESTEP TKDEIGES)
 endif()
 
-polycube_stage(core)
+polycube_stage(core LINKS TBB::tbb)
 polycube_stage(cad USES core LINKS ${OCCT} ${ZIP_LIBRARY} SYSTEM ${OpenCASCADE_INCLUDE_DIR} ${ZIP_INCLUDE_DIR})
 # As OpenCASCADE itself is built: its faults become exceptions where they are to be caught (cad/occt.h).
 target_compile_definitions(polycube_cad PUBLIC OCC_CONVERT_SIGNALS)

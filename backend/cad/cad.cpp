@@ -152,6 +152,10 @@ Vec3 CadModel::face_normal(int id, const Vec2& uv) const {
   return face.sign * surface_normal(face, uv);
 }
 
+Vec3 CadModel::vertex_normal(int face, int vertex) const {
+  return shape_->vertex_normals.get({face, vertex}, [&] { return face_normal(face, project_to_face(face, this->vertex(vertex)).uv); });
+}
+
 Mat3 CadModel::face_bend(int id, const Vec2& uv) const {
   const FaceGeometry& face = shape_->face(id);
   gp_Pnt p;

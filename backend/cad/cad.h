@@ -100,6 +100,8 @@ class CadModel {
   EdgePoint project_to_edge(int id, const Vec3& p, const double* seed = nullptr) const;
   /// Unit normal pointing out of the solid.
   Vec3 face_normal(int id, const Vec2& uv) const;
+  /// The same at one of the face's vertices.
+  Vec3 vertex_normal(int face, int vertex) const;
   /// How the surface bends: a step d in its tangent plane leads to d + (d . bend d) / 2 normals, to second order. Zero where it has no tangent plane.
   Mat3 face_bend(int id, const Vec2& uv) const;
   Vec3 face_point(int id, const Vec2& uv) const;

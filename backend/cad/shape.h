@@ -9,6 +9,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
+#include <array>
 #include <gp_Circ.hxx>
 #include <gp_Cone.hxx>
 #include <gp_Cylinder.hxx>
@@ -16,6 +17,8 @@
 #include <gp_Pln.hxx>
 #include <gp_Sphere.hxx>
 #include <gp_Torus.hxx>
+#include <map>
+#include <mutex>
 #include <variant>
 
 #include "cad/cad.h"
@@ -77,6 +80,27 @@ inline constexpr std::array<TopAbs_ShapeEnum, 3> kKinds{TopAbs_VERTEX, TopAbs_ED
 /// Numbers of the vertices, edges and faces (by dimension) of a solid, in the order of TopExp::MapShapes on it.
 using Numbering = std::array<std::vector<int>, 3>;
 
+/// Values that are worked out once, when they are first asked for.
+class NormalTable {
+ public:
+  template <class Work>
+  Vec3 get(const std::array<int, 2>& key, const Work& work) {
+    {
+      const std::lock_guard lock(mutex_);
+      const auto found = values_.find(key);
+      if (found != values_.end()) return found->second;
+    }
+    const Vec3 value = work();
+    const std::lock_guard lock(mutex_);
+    values_.emplace(key, value);
+    return value;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::array<int, 2>, Vec3> values_;
+};
+
 /// Tables by number: entry n - 1 is entity n, and empty where the solid has no entity n.
 struct CadModel::Shape {
   TopoDS_Shape shape;  ///< the solid, or a compound of nothing else
@@ -90,6 +114,7 @@ struct CadModel::Shape {
   std::vector<EdgeGeometry> edge_geometry;
   Eigen::AlignedBox3d box;
   double volume = 0;
+  mutable NormalTable vertex_normals;  ///< by face and vertex
 
   const FaceGeometry& face(int id) const { return face_geometry[static_cast<std::size_t>(id - 1)]; }
   const EdgeGeometry& edge(int id) const { return edge_geometry[static_cast<std::size_t>(id - 1)]; }

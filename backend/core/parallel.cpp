@@ -1,92 +1,26 @@
 #include "core/parallel.h"
 
-#include <atomic>
-#include <condition_variable>
-#include <deque>
-#include <exception>
-#include <memory>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/partitioner.h>
+#include <tbb/task_arena.h>
+
+#include <map>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 namespace polycube {
 namespace {
 
-struct Job {
-  const std::function<void(int)>& run;  // alive until all chunks are done
-  const int chunks;
-  std::atomic<int> next{0};
-  std::atomic<bool> failed{false};
-  std::mutex guard;
-  std::condition_variable finished;
-  int done = 0;
-  std::exception_ptr failure;
-
-  void work() {
-    for (int c = next++; c < chunks; c = next++) {
-      std::exception_ptr thrown;
-      try {
-        if (!failed) run(c);
-      } catch (...) {
-        thrown = std::current_exception();
-        failed = true;
-      }
-      const std::lock_guard lock(guard);
-      if (!failure) failure = thrown;
-      if (++done == chunks) finished.notify_all();
-    }
-  }
-  void wait() {
-    std::unique_lock lock(guard);
-    finished.wait(lock, [this] { return done == chunks; });
-    if (failure) std::rethrow_exception(failure);
-  }
-};
-
-/// Threads that stay, to be there at once when there is work.
-class Helpers {
- public:
-  ~Helpers() {
-    {
-      const std::lock_guard lock(guard_);
-      stop_ = true;
-    }
-    wake_.notify_all();
-    for (std::thread& t : threads_) t.join();
-  }
-  void offer(const std::shared_ptr<Job>& job, int places) {
-    const std::lock_guard lock(guard_);
-    while (static_cast<int>(threads_.size()) < places) threads_.emplace_back([this] { serve(); });
-    for (int i = 0; i < places; ++i) {
-      offers_.push_back(job);
-      wake_.notify_one();
-    }
-  }
-  void withdraw(const std::shared_ptr<Job>& job) {
-    const std::lock_guard lock(guard_);
-    std::erase(offers_, job);
-  }
-
- private:
-  void serve() {
-    std::unique_lock lock(guard_);
-    for (;;) {
-      wake_.wait(lock, [this] { return stop_ || !offers_.empty(); });
-      if (stop_) return;
-      const std::shared_ptr<Job> job = offers_.front();
-      offers_.pop_front();
-      lock.unlock();
-      job->work();
-      lock.lock();
-    }
-  }
-
-  std::mutex guard_;
-  std::condition_variable wake_;
-  std::deque<std::shared_ptr<Job>> offers_;
-  std::vector<std::thread> threads_;
-  bool stop_ = false;
-};
+/// Threads that work together, by their number; they stay, for to begin anew takes longer than many a loop. For more than there are cores TBB writes a warning
+/// on standard error.
+tbb::task_arena& arena_of(int threads) {
+  static std::mutex mutex;
+  static std::map<int, tbb::task_arena> arenas;
+  const std::lock_guard lock(mutex);
+  const int count = std::min(threads, tbb::info::default_concurrency());
+  return arenas.try_emplace(count, count).first->second;
+}
 
 }  // namespace
 
@@ -98,12 +32,8 @@ void share_chunks(int chunks, int threads, const std::function<void(int)>& run) 
     for (int c = 0; c < chunks; ++c) run(c);
     return;
   }
-  static Helpers helpers;
-  const auto job = std::make_shared<Job>(run, chunks);
-  helpers.offer(job, threads - 1);
-  job->work();
-  helpers.withdraw(job);
-  job->wait();
+  // Isolated: a thread that waits for the chunks of a loop inside another takes none of the outer loop's meanwhile.
+  arena_of(threads).execute([&] { tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, chunks, run, tbb::simple_partitioner()); }); });
 }
 
 }  // namespace polycube

@@ -9,8 +9,8 @@ namespace polycube {
 /// Threads in force: as many as asked for, all cores for 0.
 int thread_count(int asked);
 
-/// Calls run(chunk) for every chunk of [0, chunks), on this thread and up to threads - 1 helpers. Returns when all are done; a helper that the machine has no
-/// time for is not waited for. An exception of a chunk is rethrown, and the chunks not begun by then are left out.
+/// Calls run(chunk) for every chunk of [0, chunks), on this thread and up to threads - 1 of TBB's, as far as there are cores. Returns when all are done. An
+/// exception of a chunk is rethrown, and the chunks not begun by then are left out.
 void share_chunks(int chunks, int threads, const std::function<void(int)>& run);
 
 /// Calls body(chunk, first, last) for the chunks of [0, count); chunk limits depend on `size` alone. An exception of a body is rethrown.

@@ -107,7 +107,7 @@ double corner_angle(const CadModel& model, const HexMesh& mesh, const Associatio
   for (int f : model.edge(first_edge).faces) {
     if (std::find(faces.begin(), faces.end(), f) != faces.end()) face = f;
   }
-  const Vec3 normal = model.face_normal(face, model.project_to_face(face, model.vertex(vertex)).uv);
+  const Vec3 normal = model.vertex_normal(face, vertex);
   const double angle = turn(normal, from.tangent, to.tangent);
   // Edges that leave in one direction bound a cusp or nearly a full turn: their curvature tells which.
   constexpr double kCusp = 0.02;
@@ -126,10 +126,12 @@ double angle_cost(int cells, double angle) {
   return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0) + folded;
 }
 
-std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges) {
+std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges,
+                                    const std::vector<char>& wanted) {
   std::vector<double> angles(edges.size(), kPi);
   for (std::size_t s = 0; s < association.segments.size(); ++s) {
     const auto [a, b] = association.segments[s];
+    if (!wanted.empty() && !wanted[a] && !wanted[b]) continue;
     const int e = find_edge(edges, a, b);
     if (e >= 0) angles[e] = dihedral_angle(model, association.segment_edge[s], (mesh.points[a] + mesh.points[b]) / 2);
   }

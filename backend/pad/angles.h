@@ -15,8 +15,10 @@ inline constexpr double kOneCell = 32 * std::numbers::pi / 180;
 /// least 1000 where a cell would have to span 150 degrees or more.
 double angle_cost(int cells, double angle);
 
-/// Interior dihedral angle of the CAD at each boundary edge, radians: pi where both quads lie on one patch without a CAD edge between.
-std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges);
+/// Interior dihedral angle of the CAD at each boundary edge, radians: pi where both quads lie on one patch without a CAD edge between. `wanted`: only at edges
+/// with such a node, pi elsewhere; empty for all.
+std::vector<double> dihedral_angles(const CadModel& model, const HexMesh& mesh, const Association& association, const std::vector<BoundaryEdge>& edges,
+                                    const std::vector<char>& wanted = {});
 
 /// Consecutive boundary quads round a node between two CAD edges.
 struct Sector {

@@ -1,9 +1,13 @@
 #include "pad/pad.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <exception>
 #include <optional>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "pad/rings.h"
 #include "pad/surface.h"
 
@@ -17,41 +21,78 @@ struct Choice {
   double gain = 0;
 };
 
+constexpr std::array kPlans{LayerPlan::kEach, LayerPlan::kBands, LayerPlan::kTogether, LayerPlan::kTogetherThrough};
+
+struct Padder {
+  const CadModel& model;
+  PaddedMesh bare;
+  const Monitor& monitor;
+
+  Choice ringed(const PaddedMesh& layered, const LayerCount& layers, RingWay way, RingCount& rings) const {
+    Choice choice{layered, {}, 0};
+    rings = insert_rings(model, choice.padded, way, monitor);
+    const auto faults = check(choice.padded.mesh, choice.padded.association);
+    if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);
+    choice.gain = layers.gain + rings.gain;
+    choice.report = {layers.quads, rings.sheets, static_cast<int>(choice.padded.mesh.hexes.size() - bare.mesh.hexes.size())};
+    return choice;
+  }
+};
+
+// What one plan comes to.
+struct Padded {
+  PaddedMesh layered;
+  LayerCount layers;
+  std::optional<Choice> plain, through_cusps;
+
+  void layer(const Padder& padder, LayerPlan plan) {
+    layered = padder.bare;
+    layers = insert_surface_layers(padder.model, layered, plan, padder.monitor);
+  }
+  void ring(const Padder& padder) {
+    RingCount rings;
+    plain = padder.ringed(layered, layers, RingWay::kPlain, rings);
+    if (rings.flat && rings.cusps) through_cusps = padder.ringed(layered, layers, RingWay::kThroughCusps, rings);
+  }
+};
+
 // A choice that leaves this much more to be desired than the best leaves two cells flat that the best does not.
 constexpr double kHopeless = 2500;
 
 }  // namespace
 
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
-                                    std::vector<PadReport>* reports, const std::vector<int>& fixed_faces) {
+                                    std::vector<PadReport>* reports, const std::vector<int>& fixed_faces, int threads) {
   const auto faults_before = check(mesh, association);
   if (!faults_before.empty()) throw StageFailed("pad", "the mesh handed to padding is not sound: " + faults_before[0]);
+  monitor.progress("pad", 0.1);
+  const Padder padder{model, {mesh, association, fixed_faces}, monitor};
+  std::vector<Padded> tried(kPlans.size());
+  tried[0].layer(padder, kPlans[0]);
+  if (tried[0].layers.regions == 0) tried.resize(1);  // nothing for the other plans to do
+  std::vector<std::exception_ptr> failures(tried.size());
+  std::atomic<int> done{1};
+  share_chunks(static_cast<int>(tried.size()), threads, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    try {
+      if (i > 0) tried[at].layer(padder, kPlans[at]);
+      tried[at].ring(padder);
+    } catch (...) {
+      failures[at] = std::current_exception();
+    }
+    monitor.progress("pad", 0.2 * ++done);
+  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+
   std::vector<Choice> choices;
   std::optional<Choice> through_cusps;
-  double done = 0.1;
-  for (const LayerPlan plan : {LayerPlan::kEach, LayerPlan::kBands, LayerPlan::kTogether, LayerPlan::kTogetherThrough}) {
-    monitor.progress("pad", done);
-    done += 0.2;
-    PaddedMesh layered{mesh, association, fixed_faces};
-    const LayerCount layers = insert_surface_layers(model, layered, plan, monitor);
-    RingCount rings;
-    const auto ringed = [&](RingWay way) {
-      Choice choice{layered, {}, 0};
-      rings = insert_rings(model, choice.padded, way, monitor);
-      const auto faults = check(choice.padded.mesh, choice.padded.association);
-      if (!faults.empty()) throw StageFailed("pad", "padding broke the mesh: " + faults[0]);
-      choice.gain = layers.gain + rings.gain;
-      choice.report = {layers.quads, rings.sheets, static_cast<int>(choice.padded.mesh.hexes.size() - mesh.hexes.size())};
-      return choice;
-    };
-    Choice choice = ringed(RingWay::kPlain);
-    if (rings.flat && rings.cusps) {
-      Choice other = ringed(RingWay::kThroughCusps);
-      if (other.gain > std::max(choice.gain, through_cusps ? through_cusps->gain : 0)) through_cusps = std::move(other);
-    }
+  for (Padded& one : tried) {
+    Choice& choice = *one.plain;
+    if (one.through_cusps && one.through_cusps->gain > std::max(choice.gain, through_cusps ? through_cusps->gain : 0))
+      through_cusps = std::move(one.through_cusps);
     const bool known = std::any_of(choices.begin(), choices.end(), [&](const Choice& other) { return other.padded.mesh.hexes == choice.padded.mesh.hexes; });
     if (!known) choices.push_back(std::move(choice));
-    if (plan == LayerPlan::kEach && layers.regions == 0) break;  // nothing for the other plans to do
   }
   std::stable_sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
   const double enough = choices[0].gain - kHopeless;

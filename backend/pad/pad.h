@@ -20,9 +20,10 @@ struct PadReport {
 };
 
 /// Several ways to pad, the most promising first, at least one: layers under whole smooth regions or pillows round the edges at fault.
-/// Which is best shows only in the fitted geometry. Each is as pad() describes. `fixed_faces` as in PaddedMesh.
+/// Which is best shows only in the fitted geometry. Each is as pad() describes. `fixed_faces` as in PaddedMesh;
+/// `threads` as in core/parallel.h, of which the meshes do not depend.
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
-                                    std::vector<PadReport>* reports = nullptr, const std::vector<int>& fixed_faces = {});
+                                    std::vector<PadReport>* reports = nullptr, const std::vector<int>& fixed_faces = {}, int threads = 1);
 
 /// The first of pad_choices. Inserts sheets and carries the association along. Geometry of new nodes is a rough first guess (a third of a
 /// cell inside); fit follows.

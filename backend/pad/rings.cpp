@@ -318,7 +318,7 @@ RingCount insert_rings(const CadModel& model, PaddedMesh& padded, RingWay way, c
         continue;
       }
       const SheetCut cut = as_cut(whole, best);
-      insert_sheet(padded.mesh, padded.association, cut);
+      insert_sheet(padded.mesh, padded.association, cut, whole.topology);
       ++count.sheets;
       count.gain += best.gain;
       again = true;

@@ -101,15 +101,15 @@ int make_room(HexMesh& mesh, RoomySurface surface, const CrowdedCorner& corner) 
   }
   for (int width = kWidest; width > 0; --width) {
     const SheetCut cut = block(mesh, surface.quads, topology, corner, width);
-    if (!sheet_obstacles(mesh, bare, cut).empty()) continue;
-    std::vector<int> beside;
-    const int added = insert_sheet(mesh, bare, cut, &beside);
-    surface.quads = std::move(bare.quads);
-    for (int q : beside) {
+    OpenedMesh opened = open_sheet(mesh, bare, cut, topology);
+    if (!opened.obstacles.empty()) continue;
+    mesh = std::move(opened.mesh);
+    surface.quads = std::move(opened.association.quads);
+    for (int q : opened.beside) {
       surface.quad_chart.push_back(surface.quad_chart[q]);
       surface.quad_triangle.push_back(surface.quad_triangle[q]);
     }
-    return added;
+    return opened.added;
   }
   return 0;
 }

@@ -24,8 +24,8 @@ struct Copy {
 
 class Opening {
  public:
-  Opening(const HexMesh& mesh, const Association& association, const SheetCut& cut)
-      : mesh_(mesh), association_(association), cut_(cut), topology_(build_topology(mesh, association.quads)) {
+  Opening(const HexMesh& mesh, const Association& association, const SheetCut& cut, const HexTopology& topology)
+      : mesh_(mesh), association_(association), cut_(cut), topology_(topology) {
     find_faces();
     find_copies();
     follow_edges();
@@ -43,7 +43,7 @@ class Opening {
     return nodes;
   }
 
-  void apply(HexMesh& mesh, Association& association, std::vector<int>* beside) const;
+  void apply(OpenedMesh& opened) const;
   int face_count() const { return static_cast<int>(faces_.size()); }
 
  private:
@@ -74,7 +74,7 @@ class Opening {
   const HexMesh& mesh_;
   const Association& association_;
   const SheetCut& cut_;
-  HexTopology topology_;
+  const HexTopology& topology_;
   std::vector<int> faces_;        // cut faces as sides of inside hexes
   std::vector<int> face_index_;   // per side, -1 if not cut
   std::vector<int> corner_copy_;  // per 8 * hex + corner: index into copies_, -1
@@ -267,7 +267,7 @@ Vec3 Opening::place(const Copy& copy, const std::vector<Vec3>& sums, const std::
   return counts[index] > 0 ? Vec3(x + 2.0 / 3.0 * (sums[index] / counts[index] - x)) : x;
 }
 
-void Opening::apply(HexMesh& mesh, Association& association, std::vector<int>* beside) const {
+void Opening::apply(OpenedMesh& opened) const {
   const int old_nodes = static_cast<int>(mesh_.points.size()), old_hexes = static_cast<int>(mesh_.hexes.size());
   const auto node_of = [&](int hex, int node) {
     const int copy = copy_at(hex, node);
@@ -286,10 +286,11 @@ void Opening::apply(HexMesh& mesh, Association& association, std::vector<int>* b
       ++counts[copy];
     }
   }
-  HexMesh result;
-  Association carried = association_;
+  HexMesh& result = opened.mesh;
+  Association& carried = opened.association;
   result.points = mesh_.points;
   result.hexes = mesh_.hexes;
+  carried = association_;
   for (int q = 0; q < static_cast<int>(association_.quads.size()); ++q) {
     if (!quad_moves(q)) continue;
     const int hex = topology_.quad_side[q] / 6;
@@ -336,29 +337,32 @@ void Opening::apply(HexMesh& mesh, Association& association, std::vector<int>* b
       const int next = (k + 1) % 4;
       carried.quads.push_back({hex[k], hex[next], hex[next + 4], hex[k + 4]});
       carried.quad_patch.push_back(association_.quad_patch[ends_[4 * i + k].at]);
-      if (beside) beside->push_back(ends_[4 * i + k].at);
+      opened.beside.push_back(ends_[4 * i + k].at);
     }
   }
-  mesh = std::move(result);
-  association = std::move(carried);
+  opened.added = face_count();
 }
 
 }  // namespace
 
-std::vector<int> sheet_obstacles(const HexMesh& mesh, const Association& association, const SheetCut& cut) {
-  return Opening(mesh, association, cut).obstacles();
+OpenedMesh open_sheet(const HexMesh& mesh, const Association& association, const SheetCut& cut, const HexTopology& topology) {
+  const Opening opening(mesh, association, cut, topology);
+  OpenedMesh opened;
+  opened.obstacles = opening.obstacles();
+  if (opened.obstacles.empty()) opening.apply(opened);
+  return opened;
 }
 
-int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut, std::vector<int>* beside) {
-  const Opening opening(mesh, association, cut);
-  if (!opening.obstacles().empty()) throw StageFailed("pad", "a sheet would branch at node " + std::to_string(opening.obstacles()[0]));
-  // `opening` reads the mesh it was made from, so the result goes to copies.
-  HexMesh opened;
-  Association carried;
-  opening.apply(opened, carried, beside);
-  mesh = std::move(opened);
-  association = std::move(carried);
-  return opening.face_count();
+int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut, const HexTopology& topology) {
+  OpenedMesh opened = open_sheet(mesh, association, cut, topology);
+  if (!opened.obstacles.empty()) throw StageFailed("pad", "a sheet would branch at node " + std::to_string(opened.obstacles[0]));
+  mesh = std::move(opened.mesh);
+  association = std::move(opened.association);
+  return opened.added;
+}
+
+int insert_sheet(HexMesh& mesh, Association& association, const SheetCut& cut) {
+  return insert_sheet(mesh, association, cut, build_topology(mesh, association.quads));
 }
 
 }  // namespace polycube

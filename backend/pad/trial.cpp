@@ -90,12 +90,9 @@ Part cut_out(const TrialMesh& whole, const SheetCut& cut) {
 }
 
 // Sum of angle costs at the edges that touch a near node and in the sectors at near nodes.
-double total_cost(const CadModel& model, const PaddedMesh& padded, const std::vector<char>& near) {
-  const HexMesh& mesh = padded.mesh;
-  const Association& association = padded.association;
-  const HexTopology topology = build_topology(mesh, association.quads);
+double total_cost(const CadModel& model, const HexMesh& mesh, const Association& association, const HexTopology& topology, const std::vector<char>& near) {
   const auto boundary = boundary_edges(mesh, association.quads, topology);
-  const auto angles = dihedral_angles(model, mesh, association, boundary);
+  const auto angles = dihedral_angles(model, mesh, association, boundary, near);
   double cost = 0;
   for (std::size_t e = 0; e < boundary.size(); ++e) {
     if (near[boundary[e].a] || near[boundary[e].b]) cost += angle_cost(boundary[e].hexes, angles[e]);
@@ -157,13 +154,16 @@ TrialResult try_sheet(const TrialMesh& whole, const SheetCut& cut) {
   result.obstacles = fixed_obstacles(whole, cut);
   if (!result.obstacles.empty()) return result;
   Part part = cut_out(whole, cut);
-  result.obstacles = sheet_obstacles(part.padded.mesh, part.padded.association, part.cut);
+  const HexTopology topology = build_topology(part.padded.mesh, part.padded.association.quads);
+  OpenedMesh opened = open_sheet(part.padded.mesh, part.padded.association, part.cut, topology);
+  result.obstacles = std::move(opened.obstacles);
   for (int& v : result.obstacles) v = part.node_of[v];
   if (!result.obstacles.empty()) return result;
-  result.gain = total_cost(whole.model, part.padded, part.near);
-  result.added = insert_sheet(part.padded.mesh, part.padded.association, part.cut);
-  part.near.resize(part.padded.mesh.points.size(), 1);
-  result.gain -= total_cost(whole.model, part.padded, part.near) + kHexPrice * result.added;
+  result.gain = total_cost(whole.model, part.padded.mesh, part.padded.association, topology, part.near);
+  result.added = opened.added;
+  part.near.resize(opened.mesh.points.size(), 1);
+  const HexTopology after = build_topology(opened.mesh, opened.association.quads);
+  result.gain -= total_cost(whole.model, opened.mesh, opened.association, after, part.near) + kHexPrice * result.added;
   return result;
 }
 

@@ -366,7 +366,7 @@ class Conformer {
       std::vector<PadReport> reports;
       std::vector<PaddedMesh> kept;
       std::vector<int> hexes_added;
-      std::vector<PaddedMesh> all = pad_choices(model, grid.mesh, association, monitor_, &reports, interfaces_of(s));
+      std::vector<PaddedMesh> all = pad_choices(model, grid.mesh, association, monitor_, &reports, interfaces_of(s), thread_count(options_.threads));
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (!keeps_interfaces(model_, association, all[i].association)) continue;
         kept.push_back(std::move(all[i]));

@@ -150,7 +150,8 @@ class Evaluator::Work {
     for (int round = 0; round <= kRecounts; ++round) {
       Draft draft;
       const Association association = gridded(plan, options_.divisions, draft);
-      std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_); });
+      std::vector<PaddedMesh> choices =
+          clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, nullptr, {}, own_.threads_); });
       const PaddedMesh& chosen = choices[promising(choices)];
       const auto padded = static_cast<int>(count_refined(chosen.mesh, chosen.association, places_of(draft, chosen.association), kAllLevels, monitor_));
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
@@ -449,7 +450,8 @@ class Evaluator::Work {
   // Pads by the plan that the draft chose before, or by the best of all.
   void pad_and_fit(Draft& draft, const Association& association) {
     std::vector<PadReport> pad_reports;
-    std::vector<PaddedMesh> choices = clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, &pad_reports); });
+    std::vector<PaddedMesh> choices =
+        clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, &pad_reports, {}, own_.threads_); });
     if (draft.choice >= 0 && choices.size() > 1) {
       const auto index = std::min(static_cast<std::size_t>(draft.choice), choices.size() - 1);
       choices = {std::move(choices[index])};

@@ -167,6 +167,18 @@ TEST(Project, NormalsPointOutward) {
   }
 }
 
+TEST(Project, NormalsAtVerticesAreThoseOfTheFace) {
+  const CadModel model = CadModel::from_brep(shapes::plate_with_hole(10, 8, 2, 1.5));
+  for (const int round : {1, 2}) {  // worked out, and remembered
+    for (int e = 1; e <= model.edge_count(); ++e)
+      for (const int f : model.edge(e).faces)
+        for (const int v : model.edge(e).vertices) {
+          const Vec3 normal = model.face_normal(f, model.project_to_face(f, model.vertex(v)).uv);
+          EXPECT_EQ(model.vertex_normal(f, v), normal) << "round " << round << ", Face" << f << ", Vertex" << v;
+        }
+  }
+}
+
 TEST(Project, TangentsRunFromStartToEnd) {
   for (const Case& c : cases()) {
     const CadModel model = CadModel::from_brep(c.brep);

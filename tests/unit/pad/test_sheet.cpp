@@ -69,7 +69,7 @@ TEST(InsertSheet, RefusesACutThatBranches) {
     const Vec3 c = centre(grid.mesh, grid.mesh.hexes[h]);
     cut.inside[h] = (c - Vec3(1.25, 0.75, 0.25)).norm() > 1e-9 && (c - Vec3(1.75, 1.25, 0.75)).norm() > 1e-9;
   }
-  const auto obstacles = sheet_obstacles(grid.mesh, grid.association, cut);
+  const auto obstacles = open_sheet(grid.mesh, grid.association, cut, build_topology(grid.mesh, grid.association.quads)).obstacles;
   ASSERT_EQ(obstacles.size(), 1u);
   EXPECT_LT((grid.mesh.points[obstacles[0]] - Vec3(1.5, 1, 0.5)).norm(), 1e-9);
   EXPECT_THROW(insert_sheet(grid.mesh, grid.association, cut), StageFailed);

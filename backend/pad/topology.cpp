@@ -79,6 +79,18 @@ HexTopology build_topology(const HexMesh& mesh, const std::vector<Quad>& quads) 
   return topology;
 }
 
+std::vector<int> sides_at(const HexMesh& mesh, const HexTopology& topology, const Quad& quad) {
+  std::vector<int> sides;
+  for (int i = topology.node_first[quad[0]]; i < topology.node_first[quad[0] + 1]; ++i) {
+    const int hex = topology.node_hexes[i];
+    for (int f = 0; f < 6; ++f) {
+      if (std::all_of(kHexFaces[f].begin(), kHexFaces[f].end(), [&](int c) { return std::find(quad.begin(), quad.end(), mesh.hexes[hex][c]) != quad.end(); }))
+        sides.push_back(6 * hex + f);
+    }
+  }
+  return sides;
+}
+
 int corner_of(const Hex& hex, int node) {
   for (int c = 0; c < 8; ++c) {
     if (hex[c] == node) return c;

@@ -16,6 +16,9 @@ struct HexTopology {
 
 HexTopology build_topology(const HexMesh& mesh, const std::vector<Quad>& quads);
 
+/// Sides of hexes with the four nodes of a quad, ascending: one on the boundary, two inside.
+std::vector<int> sides_at(const HexMesh& mesh, const HexTopology& topology, const Quad& quad);
+
 /// Local corner of node in hex, -1 if it is none of its eight.
 int corner_of(const Hex& hex, int node);
 /// The face of the hex, other than `face`, that contains the edge (a, b).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "core/sorted.h"
 #include "label/features.h"
@@ -21,6 +22,8 @@ const std::vector<int>& numbers_before(const Origin& origin, int dim) { return d
 const CadModel& before(const ConformalModel& model, const Assembly& assembly, std::size_t s) {
   return assembly.solids[static_cast<std::size_t>(model.numbers[s]) - 1];
 }
+
+const std::vector<int>& numbers_of(const CadModel& solid, int dim) { return dim == 2 ? solid.faces() : dim == 1 ? solid.edges() : solid.vertices(); }
 
 /// The first solid that had a face; of a face that two shared the labels are meant as that one sees it.
 int first_with(const ConformalModel& model, int face) {
@@ -62,11 +65,14 @@ MeshOptions options_of_unit(const MeshOptions& options, const ConformalModel& mo
   std::erase_if(own.divisions, [&](const Division& d) { return d.solid > 0 ? !has_solid(d.solid) : d.edge > 0 ? !has_edge(d.edge) : !has_face(d.faces[0]); });
   std::erase_if(own.sizes, [&](const LocalSize& s) { return s.solid > 0 ? !has_solid(s.solid) : s.face > 0 && !has_face(s.face); });
   std::erase_if(own.bias, [&](const EdgeBias& b) { return !has_edge(b.edge); });
+  std::erase_if(own.refine, [&](const LocalRefinement& r) {
+    if (r.entity.dim == 3) return !has_solid(r.entity.id);
+    return !in_one([&](const CadModel& solid) { return has(numbers_of(solid, r.entity.dim), r.entity.id); });
+  });
   return own;
 }
 
 void check_demands(const MeshOptions& options, const ConformalModel& model, const Assembly& assembly, double size) {
-  if (!options.refine.empty()) throw InvalidInput("--refine goes with --interfaces separate only: the solids touch");
   double cells = 0;
   for (std::size_t s = 0; s < model.solids.size(); ++s) {
     const CadModel& solid = before(model, assembly, s);
@@ -75,6 +81,7 @@ void check_demands(const MeshOptions& options, const ConformalModel& model, cons
     own = without_solids(own);
     check_divisions(solid, own.divisions);
     check_biases(solid, own.bias);
+    check_refinements(solid, own.refine);
     cells += solid.volume() / std::pow(own.size, 3);
   }
   check_count(options.coarsest || options.hexes > 0 ? 0 : cells);
@@ -188,6 +195,20 @@ DemandPlaces find_places(const ConformalModel& model, const Assembly& assembly, 
     return std::pair(found->second.first, origin.faces[static_cast<std::size_t>(found->second.second)]);
   };
   return {find_side_faces(tets, map, blocks, block_solid, chart_at), chains_by_origin(model, assembly, tets), block_solid, {}};
+}
+
+std::map<CadRef, std::vector<CadRef>> pieces_of(const ConformalModel& model) {
+  std::map<CadRef, std::set<CadRef>> found;
+  for (const Origin& origin : model.origins) {
+    for (const int dim : {0, 1, 2}) {
+      const std::vector<int>& before = numbers_before(origin, dim);
+      for (std::size_t joined = 1; joined < before.size(); ++joined)
+        if (before[joined] > 0) found[{dim, before[joined]}].insert({dim, static_cast<int>(joined)});
+    }
+  }
+  std::map<CadRef, std::vector<CadRef>> result;
+  for (const auto& [entity, pieces] : found) result[entity].assign(pieces.begin(), pieces.end());
+  return result;
 }
 
 Association by_origin(const Association& association, const Origin& origin) {

@@ -1,6 +1,8 @@
 // What is asked of faces and edges of solids that touch: by the numbers of the assembly, on what these became when the solids were joined.
 #pragma once
 
+#include <map>
+
 #include "cad/conformal.h"
 #include "core/error.h"
 #include "pipeline/demands.h"
@@ -26,6 +28,9 @@ std::vector<std::vector<int>> all_edge_chains(const ConformalModel& model, const
 /// Faces and edges by the numbers of the assembly. `inner_chart`: per inner triangle of `tets` its chart among the last ones of the map.
 DemandPlaces find_places(const ConformalModel& model, const Assembly& assembly, const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks,
                          const std::vector<int>& block_solid, const std::vector<int>& inner_chart);
+
+/// What the faces, edges and vertices of the assembly became.
+std::map<CadRef, std::vector<CadRef>> pieces_of(const ConformalModel& model);
 
 /// The association of a solid's mesh by the numbers of the assembly; 0 for edges that joining made.
 Association by_origin(const Association& association, const Origin& origin);

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hexahedron.h"
 #include "core/sorted.h"
+#include "pad/topology.h"
 
 namespace polycube {
 namespace {
@@ -272,6 +273,98 @@ JoinedGrids join_grids(const ConformalModel& model, const std::vector<SolidGrid>
   for (const auto& [quad, seen] : interface_quads)
     if (seen % 4 != 2) unlike(seen / 4);
   return joined;
+}
+
+namespace {
+
+/// What one solid has of a mesh.
+class Part {
+ public:
+  Part(const CadModel& model, const PaddedMesh& whole, int solid, const std::vector<int>& hex_solid)
+      : model_(model), whole_(whole), index_(whole.mesh.points.size(), -1), patch_(whole.association.patches.size(), -1) {
+    for (int h = 0; h < static_cast<int>(whole.mesh.hexes.size()); ++h) {
+      if (hex_solid[h] != solid) continue;
+      hex.push_back(h);
+      Hex& own = padded.mesh.hexes.emplace_back(whole.mesh.hexes[h]);
+      for (int& n : own) n = local(n);
+    }
+    for (std::size_t i = 0; i < whole.association.segments.size(); ++i) add_segment(i);
+    for (const int n : node) {
+      CadRef cad = whole.association.point_cad[n];
+      if (cad.dim == 2) cad.id = patch(cad.id);
+      padded.association.point_cad.push_back(cad);
+    }
+  }
+
+  void add_quad(std::size_t q, int side) {
+    const Hex& of = whole_.mesh.hexes[side / 6];
+    Quad& quad = padded.association.quads.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) quad[k] = index_[of[kHexFaces[side % 6][k]]];
+    padded.association.quad_patch.push_back(patch(whole_.association.quad_patch[q]));
+  }
+
+  PaddedMesh padded;
+  std::vector<int> node, hex;  // their numbers in the whole
+
+ private:
+  int local(int n) {
+    if (index_[n] < 0) {
+      index_[n] = static_cast<int>(node.size());
+      node.push_back(n);
+      padded.mesh.points.push_back(whole_.mesh.points[n]);
+    }
+    return index_[n];
+  }
+
+  int patch(int p) {
+    if (patch_[p] < 0) {
+      patch_[p] = static_cast<int>(padded.association.patches.size());
+      padded.association.patches.push_back(whole_.association.patches[p]);
+    }
+    return patch_[p];
+  }
+
+  void add_segment(std::size_t i) {
+    const auto [from, to] = whole_.association.segments[i];
+    const int edge = whole_.association.segment_edge[i];
+    if (index_[from] < 0 || index_[to] < 0 || !std::binary_search(model_.edges().begin(), model_.edges().end(), edge)) return;
+    padded.association.segments.push_back({index_[from], index_[to]});
+    padded.association.segment_edge.push_back(edge);
+  }
+
+  const CadModel& model_;
+  const PaddedMesh& whole_;
+  std::vector<int> index_, patch_;
+};
+
+}  // namespace
+
+PaddedGrids part_grids(const ConformalModel& model, PaddedMesh whole, const std::vector<int>& hex_solid, const std::vector<PaddedMesh>& before,
+                       const Monitor& monitor) {
+  std::vector<Part> parts;
+  for (std::size_t s = 0; s < model.solids.size(); ++s) {
+    monitor.check();
+    parts.emplace_back(model.solids[s], whole, static_cast<int>(s), hex_solid);
+  }
+  const std::vector<Quad>& quads = whole.association.quads;
+  const HexTopology topology = build_topology(whole.mesh, quads);
+  for (std::size_t q = 0; q < quads.size(); ++q)
+    for (const int side : sides_at(whole.mesh, topology, quads[q])) parts[static_cast<std::size_t>(hex_solid[side / 6])].add_quad(q, side);
+  PaddedGrids result;
+  for (std::size_t s = 0; s < parts.size(); ++s) {
+    Association& a = parts[s].padded.association;
+    const Association& was = before[s].association;
+    a.lost_edges = was.lost_edges;
+    a.lost_vertices = was.lost_vertices;
+    a.ignored_edges = was.ignored_edges;
+    a.ignored_vertices = was.ignored_vertices;
+    a.ignored_faces = was.ignored_faces;
+    result.solids.push_back(std::move(parts[s].padded));
+    result.joined.node.push_back(std::move(parts[s].node));
+    result.joined.hex.push_back(std::move(parts[s].hex));
+  }
+  result.joined.whole = std::move(whole);
+  return result;
 }
 
 }  // namespace polycube

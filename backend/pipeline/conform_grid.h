@@ -3,6 +3,7 @@
 
 #include "blocks/blocks.h"
 #include "cad/conformal.h"
+#include "core/monitor.h"
 #include "hex/hex.h"
 #include "pad/pad.h"
 #include "quantize/quantize.h"
@@ -45,6 +46,18 @@ struct JoinedGrids {
 
 /// Throws StageFailed("interfaces", ...) where two solids do not see their interface alike.
 JoinedGrids join_grids(const ConformalModel& model, const std::vector<SolidGrid>& grids, const std::vector<PaddedMesh>& solids, std::size_t nodes);
+
+/// A mesh of several solids, and what each has of it.
+struct PaddedGrids {
+  JoinedGrids joined;
+  std::vector<PaddedMesh> solids;
+  std::vector<int> added_hexes{};  ///< per solid, by padding
+};
+
+/// Takes a mesh of several solids apart. `hex_solid`: per hex the index of its solid; of the quads those between solids are listed once. What a solid has lost
+/// is what it had lost in `before`.
+PaddedGrids part_grids(const ConformalModel& model, PaddedMesh whole, const std::vector<int>& hex_solid, const std::vector<PaddedMesh>& before,
+                       const Monitor& monitor);
 
 /// Whether a padded mesh of a solid has left its interfaces as they were.
 bool keeps_interfaces(const ConformalModel& model, const Association& before, const Association& after);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -21,6 +22,7 @@
 #include "pipeline/conform_pad.h"
 #include "pipeline/gate.h"
 #include "pipeline/integers.h"
+#include "pipeline/local_refinement.h"
 #include "pipeline/loose_nodes.h"
 #include "pipeline/realise.h"
 #include "pipeline/shortfalls.h"
@@ -71,7 +73,9 @@ struct Draft {
   std::vector<PaddedMesh> solids;  ///< padded, each by its own numbers
   std::vector<int> hex_block;      ///< per hex of the whole
   FitReport fitted;
-  std::vector<int> padded_hexes;  ///< per solid
+  std::vector<int> padded_hexes;      ///< per solid
+  std::vector<PaddedMesh> unrefined;  ///< where cells were refined locally: the solids before
+  std::vector<std::string> refine_warnings;
   Quantization quantization;
   int charts = 0, blocks = 0;
   double grid_hexes = 0;  ///< before padding
@@ -80,6 +84,8 @@ struct Draft {
     for (const PaddedMesh& s : solids) sum += static_cast<int>(s.association.lost_edges.size());
     return sum;
   }
+  /// With the cells of the grid and its layers alone.
+  const std::vector<PaddedMesh>& before_refining() const { return unrefined.empty() ? solids : unrefined; }
 };
 
 class Conformer {
@@ -244,7 +250,7 @@ class Conformer {
     const Divisions fewer = allow_for_padding(draft);
     if (fewer == options_.divisions) return;
     std::optional<Draft> next = again(base, fewer, 1, "fewer divisions");
-    if (next && unmet(*next).size() < unmet(draft).size()) draft = std::move(*next);
+    if (next && unmet(next->before_refining()).size() < unmet(draft.before_refining()).size()) draft = std::move(*next);
   }
 
   /// The first solid that has what a division is of, in all.
@@ -261,21 +267,22 @@ class Conformer {
 
   Divisions allow_for_padding(const Draft& draft) const {
     Divisions fewer = options_.divisions;
-    for (std::size_t s = 0; s < draft.solids.size() && !fewer.empty(); ++s) {
-      const Association own = by_origin(draft.solids[s].association, model_.origins[s]);
+    const std::vector<PaddedMesh>& solids = draft.before_refining();
+    for (std::size_t s = 0; s < solids.size() && !fewer.empty(); ++s) {
+      const Association own = by_origin(solids[s].association, model_.origins[s]);
       for (Division& d : fewer)
-        if (is_of(d, s)) d = polycube::allow_for_padding(draft.solids[s].mesh, own, {d}).front();
+        if (is_of(d, s)) d = polycube::allow_for_padding(solids[s].mesh, own, {d}).front();
     }
     return fewer;
   }
 
-  std::vector<std::string> unmet(const Draft& draft) const {
+  std::vector<std::string> unmet(const std::vector<PaddedMesh>& solids) const {
     std::vector<std::string> lines;
-    for (std::size_t s = 0; s < draft.solids.size(); ++s) {
+    for (std::size_t s = 0; s < solids.size(); ++s) {
       Divisions own = options_.divisions;
       std::erase_if(own, [&](const Division& d) { return !is_of(d, s); });
       if (own.empty()) continue;
-      const auto more = unmet_divisions(draft.solids[s].mesh, by_origin(draft.solids[s].association, model_.origins[s]), own);
+      const auto more = unmet_divisions(solids[s].mesh, by_origin(solids[s].association, model_.origins[s]), own);
       lines.insert(lines.end(), more.begin(), more.end());
     }
     return lines;
@@ -339,7 +346,50 @@ class Conformer {
       own = carry_blocks(draft.solids[s].mesh, std::move(own));
       for (std::size_t h = 0; h < own.size(); ++h) draft.hex_block[draft.joined.hex[s][h]] = own[h];
     }
+    if (!options_.refine.empty()) refine(draft);
+    for (std::size_t s = 0; s < draft.solids.size(); ++s) {
+      HexMesh& mesh = draft.solids[s].mesh;
+      for (std::size_t p = 0; p < mesh.points.size(); ++p) mesh.points[p] = draft.joined.whole.mesh.points[draft.joined.node[s][p]];
+      gate(model_.solids[s], draft.solids[s], options_.threads, monitor_);
+    }
     return draft;
+  }
+
+  /// Locally, in all solids at once: templates go on through interfaces.
+  void refine(Draft& draft) {
+    RefinePlan plan;
+    plan.everywhere = options_.refine;
+    plan.pieces = pieces_of(model_);
+    plan.hex_solid.resize(draft.joined.whole.mesh.hexes.size());
+    for (std::size_t s = 0; s < draft.joined.hex.size(); ++s)
+      for (const int h : draft.joined.hex[s]) plan.hex_solid[h] = model_.numbers[s];
+    LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_.whole, draft.joined.whole, plan, fit_options(), monitor_); });
+    draft.fitted = refined.fitted;
+    fail_inverted(draft.fitted);
+    std::vector<int> hex_solid, hex_block;
+    for (const int parent : refined.parent) {
+      const int number = plan.hex_solid[parent];
+      hex_solid.push_back(static_cast<int>(std::find(model_.numbers.begin(), model_.numbers.end(), number) - model_.numbers.begin()));
+      hex_block.push_back(draft.hex_block[parent]);
+    }
+    PaddedGrids parts = part_grids(model_, std::move(refined.padded), hex_solid, draft.solids, monitor_);
+    draft.unrefined = std::exchange(draft.solids, std::move(parts.solids));
+    draft.joined = std::move(parts.joined);
+    draft.hex_block = std::move(hex_block);
+    draft.refine_warnings = std::move(refined.warnings);
+  }
+
+  FitOptions fit_options() const {
+    FitOptions result;
+    result.threads = thread_count(options_.threads);
+    return result;
+  }
+
+  static void fail_inverted(const FitReport& fitted) {
+    if (fitted.inverted == 0) return;
+    std::vector<CadRef> faces;
+    for (const int f : fitted.bad_faces) faces.push_back({2, f});
+    throw StageFailed("fit", std::to_string(fitted.inverted) + " cells stay inverted", faces);
   }
 
   /// CAD faces that a solid has in common with others, ascending.
@@ -413,26 +463,15 @@ class Conformer {
   void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
     std::vector<FitCandidate> candidates;
     for (PaddedGrids& c : choices) candidates.push_back({c.joined.whole.mesh, c.joined.whole.association});
-    FitOptions fit_options;
-    fit_options.threads = thread_count(options_.threads);
     const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kGood; };
-    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options, kFits, good, monitor_); });
+    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options(), kFits, good, monitor_); });
     draft.fitted = best.report;
     monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +
                  std::to_string(draft.fitted.inverted) + " inverted, choice " + std::to_string(best.index + 1) + " of " + std::to_string(choices.size()));
-    if (draft.fitted.inverted > 0) {
-      std::vector<CadRef> faces;
-      for (const int f : draft.fitted.bad_faces) faces.push_back({2, f});
-      throw StageFailed("fit", std::to_string(draft.fitted.inverted) + " cells stay inverted", faces);
-    }
+    fail_inverted(draft.fitted);
     draft.joined = std::move(choices[best.index].joined);
     draft.solids = std::move(choices[best.index].solids);
     draft.padded_hexes = std::move(choices[best.index].added_hexes);
-    for (std::size_t s = 0; s < draft.solids.size(); ++s) {
-      HexMesh& mesh = draft.solids[s].mesh;
-      for (std::size_t p = 0; p < mesh.points.size(); ++p) mesh.points[p] = draft.joined.whole.mesh.points[draft.joined.node[s][p]];
-      gate(model_.solids[s], draft.solids[s], options_.threads, monitor_);
-    }
   }
 
   ConformalMesh finished(Draft& draft, int tried) {
@@ -456,8 +495,9 @@ class Conformer {
     complete(first, result.fem);
     first.nodes = nodes;
     first.stages = clock_.records();
-    const std::vector<std::string> lines = unmet(draft);
+    const std::vector<std::string> lines = unmet(draft.solids);
     first.warnings.insert(first.warnings.end(), lines.begin(), lines.end());
+    first.warnings.insert(first.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());
     first.out_of_time = out_of_time_;
     if (out_of_time_) first.warnings.push_back("the time limit ended the search; this is the best mesh so far");
     return result;

@@ -13,8 +13,6 @@
 namespace polycube {
 namespace {
 
-bool has(const std::vector<int>& numbers, int id) { return std::binary_search(numbers.begin(), numbers.end(), id); }
-
 bool is_interface(const ConformalModel& model, int face) {
   return std::any_of(model.interfaces.begin(), model.interfaces.end(), [&](const auto& i) { return i.first == face; });
 }
@@ -77,12 +75,9 @@ class Parting {
   /// None where the interfaces cannot be followed through the layers.
   std::optional<PaddedGrids> run() {
     if (!find_interfaces() || !place_nodes() || !keep_inner_segments()) return std::nullopt;
-    PaddedGrids result;
-    result.joined.whole = {padded_.mesh, all_};
-    for (std::size_t s = 0; s < model_.solids.size(); ++s) {
-      monitor_.check();
-      part(static_cast<int>(s), result);
-    }
+    PaddedGrids result = part_grids(model_, {padded_.mesh, all_}, solid_, before_.solids, monitor_);
+    for (std::size_t s = 0; s < result.solids.size(); ++s)
+      result.added_hexes.push_back(before_.added_hexes[s] + static_cast<int>(result.solids[s].mesh.hexes.size() - before_.solids[s].mesh.hexes.size()));
     return result;
   }
 
@@ -181,66 +176,6 @@ class Parting {
       all_.segment_edge.push_back(a.segment_edge[s]);
     }
     return true;
-  }
-
-  void part(int s, PaddedGrids& result) const {
-    const CadModel& model = model_.solids[static_cast<std::size_t>(s)];
-    PaddedMesh own;
-    std::vector<int> index(padded_.mesh.points.size(), -1), node, hexes, patch(all_.patches.size(), -1);
-    const auto local = [&](int n) {
-      if (index[n] < 0) {
-        index[n] = static_cast<int>(node.size());
-        node.push_back(n);
-        own.mesh.points.push_back(padded_.mesh.points[n]);
-      }
-      return index[n];
-    };
-    for (int h = 0; h < static_cast<int>(padded_.mesh.hexes.size()); ++h) {
-      if (solid_[h] != s) continue;
-      hexes.push_back(h);
-      Hex hex = padded_.mesh.hexes[h];
-      for (int& n : hex) n = local(n);
-      own.mesh.hexes.push_back(hex);
-    }
-    Association& a = own.association;
-    const auto own_patch = [&](int p) {
-      if (patch[p] < 0) {
-        patch[p] = static_cast<int>(a.patches.size());
-        a.patches.push_back(all_.patches[p]);
-      }
-      return patch[p];
-    };
-    for (std::size_t q = 0; q < all_.quads.size(); ++q) {
-      for (const int side : sides_.at(sorted(all_.quads[q]))) {
-        if (solid_[side / 6] != s) continue;
-        Quad quad = side_of(padded_.mesh.hexes[side / 6], side % 6);
-        for (int& n : quad) n = index[n];
-        a.quads.push_back(quad);
-        a.quad_patch.push_back(own_patch(all_.quad_patch[q]));
-      }
-    }
-    for (std::size_t i = 0; i < all_.segments.size(); ++i) {
-      const auto [from, to] = all_.segments[i];
-      if (!has(model.edges(), all_.segment_edge[i]) || index[from] < 0 || index[to] < 0) continue;
-      a.segments.push_back({index[from], index[to]});
-      a.segment_edge.push_back(all_.segment_edge[i]);
-    }
-    for (const int n : node) {
-      CadRef cad = all_.point_cad[n];
-      if (cad.dim == 2) cad.id = own_patch(cad.id);
-      a.point_cad.push_back(cad);
-    }
-    const Association& before = before_.solids[static_cast<std::size_t>(s)].association;
-    a.lost_edges = before.lost_edges;
-    a.lost_vertices = before.lost_vertices;
-    a.ignored_edges = before.ignored_edges;
-    a.ignored_vertices = before.ignored_vertices;
-    a.ignored_faces = before.ignored_faces;
-    result.added_hexes.push_back(before_.added_hexes[static_cast<std::size_t>(s)] +
-                                 static_cast<int>(hexes.size() - before_.solids[static_cast<std::size_t>(s)].mesh.hexes.size()));
-    result.solids.push_back(std::move(own));
-    result.joined.node.push_back(std::move(node));
-    result.joined.hex.push_back(std::move(hexes));
   }
 
   const ConformalModel& model_;

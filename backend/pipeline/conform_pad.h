@@ -5,13 +5,6 @@
 
 namespace polycube {
 
-/// A padded mesh of several solids, and what each has of it.
-struct PaddedGrids {
-  JoinedGrids joined;
-  std::vector<PaddedMesh> solids;
-  std::vector<int> added_hexes;  ///< per solid
-};
-
 /// Layers under the outside of all solids together, as pad_choices lays them for one; interfaces go on through them. Those of which the parts cannot be told,
 /// and those that add nothing, are left out. `grids`: solids, and the same in one.
 std::vector<PaddedGrids> pad_across(const ConformalModel& model, const PaddedGrids& grids, const Monitor& monitor);

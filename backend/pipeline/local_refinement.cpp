@@ -25,21 +25,51 @@ int most_levels(const RefinePlan& plan) {
   return most;
 }
 
+/// A mesh on the way, with the cells that its cells were parts of before all levels.
+struct Level {
+  const HexMesh& mesh;
+  const Association& association;
+  const std::vector<int>& parent;
+};
+
+/// Cells at an entity as the user knows it.
+std::vector<char> cells_at(const Level& now, const RefinePlan& plan, const CadRef& entity) {
+  if (entity.dim == 3 && !plan.hex_solid.empty()) {
+    std::vector<char> cells;
+    for (const int parent : now.parent) cells.push_back(plan.hex_solid[parent] == entity.id);
+    return cells;
+  }
+  const auto pieces = plan.pieces.find(entity);
+  if (pieces == plan.pieces.end()) return cells_at(now.mesh, now.association, entity);
+  std::vector<char> cells(now.mesh.hexes.size(), 0);
+  for (const CadRef& piece : pieces->second) {
+    const std::vector<char> at = cells_at(now.mesh, now.association, piece);
+    for (std::size_t h = 0; h < cells.size(); ++h) cells[h] |= at[h];
+  }
+  return cells;
+}
+
+std::vector<int> counted(std::size_t n) {
+  std::vector<int> numbers(n);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 /// The cells that the last level makes of those at the entities alone: the least that comes of it.
-void check_levels(const HexMesh& mesh, const Association& association, const LocalRefinements& refinements) {
-  for (const LocalRefinement& r : refinements) {
-    const std::vector<char> cells = cells_at(mesh, association, r.entity);
+void check_levels(const Level& now, const RefinePlan& plan) {
+  for (const LocalRefinement& r : plan.everywhere) {
+    const std::vector<char> cells = cells_at(now, plan, r.entity);
     check_count(static_cast<double>(std::count(cells.begin(), cells.end(), 1)) * std::pow(3.0, r.entity.dim * (r.levels - 1)) * 27);
   }
 }
 
 /// The cells that level `level` (from 1) divides. Where another level follows, also those around them, so that its templates are among cells of even size.
-std::vector<char> cells_of(const HexMesh& mesh, const Association& association, const LocalRefinements& refinements, int level) {
-  std::vector<char> result(mesh.hexes.size(), 0);
+std::vector<char> cells_of(const Level& now, const RefinePlan& plan, const LocalRefinements& refinements, int level) {
+  std::vector<char> result(now.mesh.hexes.size(), 0);
   for (const LocalRefinement& r : refinements) {
     if (r.levels < level) continue;
-    std::vector<char> cells = cells_at(mesh, association, r.entity);
-    if (r.levels > level) cells = with_neighbours(mesh, cells);
+    std::vector<char> cells = cells_at(now, plan, r.entity);
+    if (r.levels > level) cells = with_neighbours(now.mesh, cells);
     for (std::size_t h = 0; h < cells.size(); ++h) result[h] |= cells[h];
   }
   return result;
@@ -64,8 +94,9 @@ std::vector<Segment> edges_from(const HexMesh& mesh, const Association& associat
   return edges;
 }
 
-RefineRegion region_of(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int level) {
-  RefineRegion region{cells_of(mesh, association, plan.everywhere, level), {}};
+RefineRegion region_of(const Level& now, const RefinePlan& plan, int level) {
+  const auto& [mesh, association, parent] = now;
+  RefineRegion region{cells_of(now, plan, plan.everywhere, level), {}};
   if (plan.round.empty()) return region;
   for (std::size_t h = 0; h < region.cells.size(); ++h) {
     if (!region.cells[h]) continue;
@@ -79,7 +110,7 @@ RefineRegion region_of(const HexMesh& mesh, const Association& association, cons
     const std::vector<Segment> out = edges_from(mesh, association, r.entity.id);
     region.along.insert(region.along.end(), out.begin(), out.end());
   }
-  const std::vector<char> round = cells_of(mesh, association, plan.round, level);
+  const std::vector<char> round = cells_of(now, plan, plan.round, level);
   for (std::size_t h = 0; h < round.size(); ++h) region.cells[h] |= round[h];
   return region;
 }
@@ -107,22 +138,25 @@ RefinePlan plan_for_bores(const std::vector<RoundEdge>& edges, const EdgeLevels&
 }
 
 std::size_t count_refined(const HexMesh& mesh, const Association& association, const RefinePlan& plan, int levels, const Monitor& monitor) {
-  RefinedMesh refined{mesh, association, {}, 0};
+  RefinedMesh refined{mesh, association, counted(mesh.hexes.size()), 0};
   for (int level = 1; level <= std::min(levels, most_levels(plan)); ++level) {
-    refined = refine_cells(refined.mesh, refined.association, region_of(refined.mesh, refined.association, plan, level), monitor);
+    std::vector<int> before = std::move(refined.parent);
+    refined = refine_cells(refined.mesh, refined.association, region_of({refined.mesh, refined.association, before}, plan, level), monitor);
+    for (int& parent : refined.parent) parent = before[parent];
   }
   return refined.mesh.hexes.size();
 }
 
 LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, const RefinePlan& plan, const FitOptions& options, const Monitor& monitor) {
-  check_levels(padded.mesh, padded.association, plan.everywhere);
-  LocallyRefined result{padded, {}, std::vector<int>(padded.mesh.hexes.size()), {}};
-  std::iota(result.parent.begin(), result.parent.end(), 0);
+  const std::vector<int> themselves = counted(padded.mesh.hexes.size());
+  const Level first{padded.mesh, padded.association, themselves};
+  check_levels(first, plan);
+  LocallyRefined result{padded, {}, themselves, {}};
   FitOptions keeping = options;
   keeping.keep_sizes = true;
   for (int level = 1; level <= most_levels(plan); ++level) {
     const std::size_t before = result.padded.mesh.hexes.size();
-    const RefineRegion region = region_of(result.padded.mesh, result.padded.association, plan, level);
+    const RefineRegion region = region_of({result.padded.mesh, result.padded.association, result.parent}, plan, level);
     RefinedMesh refined = refine_cells(result.padded.mesh, result.padded.association, region, monitor);
     const auto asked = static_cast<double>(std::count(region.cells.begin(), region.cells.end(), 1));
     const bool spreads = refined.grown > kMuchOfAsked * asked && refined.grown > kMuchOfAll * static_cast<double>(before);
@@ -140,7 +174,7 @@ LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, c
     if (result.fitted.inverted > 0) break;
   }
   for (const LocalRefinement& r : plan.everywhere) {
-    const std::vector<char> cells = cells_at(padded.mesh, padded.association, r.entity);
+    const std::vector<char> cells = cells_at(first, plan, r.entity);
     if (std::find(cells.begin(), cells.end(), 1) == cells.end())
       result.warnings.push_back("local refinement: " + text_of(r) + " has no cells, as the mesh does not follow it");
   }

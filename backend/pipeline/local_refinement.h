@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 
 #include "cad/cad.h"
 #include "core/demands.h"
@@ -16,6 +17,8 @@ struct RefinePlan {
   LocalRefinements everywhere{};  ///< along every edge
   LocalRefinements round{};       ///< of bores: round them and away from them, not along them; `edges` are their rims
   std::vector<int> edges{};
+  std::map<CadRef, std::vector<CadRef>> pieces{};  ///< of solids that were joined: what their faces, edges and vertices are in the association
+  std::vector<int> hex_solid{};                    ///< and per hex of the mesh before all levels the number of its solid
   bool empty() const { return everywhere.empty() && round.empty(); }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/error.h"
 #include "core/hexahedron.h"
 #include "core/options.h"
 #include "pad/topology.h"
@@ -87,11 +88,25 @@ class Refining {
     return at->second;
   }
 
+  /// The side of the cell that a quad looks away from; one between two cells is a side of both.
+  int side_of(std::size_t q) const {
+    if (topology_.quad_side[q] >= 0) return topology_.quad_side[q];
+    Quad quad = association_.quads[q];
+    std::rotate(quad.begin(), std::min_element(quad.begin(), quad.end()), quad.end());
+    for (const int side : sides_at(mesh_, topology_, quad)) {
+      Quad own;
+      for (int k = 0; k < 4; ++k) own[k] = mesh_.hexes[side / 6][kHexFaces[side % 6][k]];
+      std::rotate(own.begin(), std::min_element(own.begin(), own.end()), own.end());
+      if (own == quad) return side;
+    }
+    throw StageFailed("refine", "a quad is no side of a cell");
+  }
+
   // The sides of parts that lie in the side of the cell.
   void divide_quads(const std::vector<int>& first) {
     Association& a = made_.association;
     for (std::size_t q = 0; q < association_.quads.size(); ++q) {
-      const int side = topology_.quad_side[q], hex = side / 6, axis = side % 6 / 2, level = side % 2 == 0 ? 0 : 3;
+      const int side = side_of(q), hex = side / 6, axis = side % 6 / 2, level = side % 2 == 0 ? 0 : 3;
       for (int part = first[hex]; part < first[hex + 1]; ++part) {
         for (const auto& corners : kHexFaces) {
           if (!std::all_of(corners.begin(), corners.end(), [&](int c) { return places_[part][c][axis] == level; })) continue;

@@ -26,7 +26,9 @@ std::vector<char> with_neighbours(const HexMesh& mesh, const std::vector<char>& 
 
 /// Divides the cells of the region, and those that have to be for the others to have a template. New nodes stand on the straight lines and faces of the cells
 /// before; those on quads and segments have their CAD entity, but are not projected: fit follows. The mesh has to be one that check() of padding finds nothing
-/// wrong with, and so has the result. Throws InvalidInput where it would have more than kMostHexes cells.
+/// wrong with, and so has the result; quads may
+/// also lie between two cells (of two solids), each as the cell sees it that it looks away from. Throws InvalidInput where it would have more than kMostHexes
+/// cells.
 RefinedMesh refine_cells(const HexMesh& mesh, const Association& association, const RefineRegion& region, const Monitor& monitor);
 
 }  // namespace polycube

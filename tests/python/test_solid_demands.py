@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 from support import VECTOR, FolderTest, Part, chamfered, cylinder, plate
-from test_solids import box_on_box, laminate, mesh, pin_in_plate
+from test_solids import ConformTest, box_on_box, laminate, mesh, pin_in_plate
 
 import _polycube
 
@@ -138,6 +138,69 @@ class Demands(FolderTest):
         self.assertEqual([solid["counts"]["thin_walls"] for solid in found.report["solids"]], [1, 0])
 
 
+class Refinements(ConformTest):
+    """Cells divided locally where solids have common nodes: both see the same quads afterwards."""
+
+    def cells(self, found):
+        return [solid["counts"]["hexes"] for solid in found.report["solids"]]
+
+    def test_entities_of_every_kind(self):
+        shape = box_on_box()
+        plain = self.cells(mesh(shape, size=1, order=1))
+        rim, corner = edge(shape, (3, 3, 3), (7, 3, 3)), next("Vertex{}".format(n) for n, v in enumerate(shape.Vertexes, 1) if v.Point.isEqual(VECTOR(3, 3, 3), 1e-6))
+        for name in ("Face6", "Face11", rim, corner, "Solid1", "Solid2"):
+            found = self.check(shape, size=1, order=1, refine={name: 1})
+            self.assertGreater(found.scaled_jacobian.min(), 0.4, name)
+            for one, before in zip(self.cells(found), plain):
+                self.assertGreater(one, before, name)
+            self.assertEqual(found.report["warnings"], [])
+
+    def test_stops_before_an_interface(self):
+        """The upper face of the box on top: two layers of cells under it, the plate keeps its cells to the last bit."""
+        plain, found = (self.check(box_on_box(), size=1, order=1, refine=refine) for refine in ({}, {"Face12": 1}))
+        self.assertEqual(self.cells(found)[0], self.cells(plain)[0])
+        self.assertEqual(self.cells(found)[1], 16 * (27 + 13 + 1))
+        np.testing.assert_allclose(*(np.unique(m.nodes[m.groups["Solid1"]["nodes"]].round(9), axis=0) for m in (plain, found)))
+
+    def test_all_of_a_solid(self):
+        """Its neighbour gets templates in the cells on the interface, and keeps the others."""
+        plain, found = (mesh(laminate(2, 4), size=1, order=1, min_layers=1, growth=1, refine=refine) for refine in ({}, {"Solid1": 1}))
+        before = self.cells(plain)
+        self.assertEqual(self.cells(found), [27 * before[0], before[1] + 12 * 96])
+
+    def test_a_bore_and_its_pin(self):
+        """Several levels through a curved interface by the number of either side; nodes stand on the cylinder."""
+        shape = pin_in_plate()
+        bores = ["Face{}".format(n) for n, f in enumerate(shape.Faces, 1) if f.Surface.TypeId == "Part::GeomCylinder"]
+        plain = len(mesh(shape, size=3, order=1, per_circle=8).groups["Solid1_Solid2"]["quads"])
+        for name, levels in [(bores[0], 2)] + [(bore, 1) for bore in bores]:
+            found = self.check(shape, volume=0.2, size=3, order=1, per_circle=8, refine={name: levels})
+            between = found.groups["Solid1_Solid2"]
+            self.assertEqual(len(between["quads"]), plain * 9**levels)
+            nodes = found.nodes[between["nodes"]]
+            np.testing.assert_allclose(np.hypot(nodes[:, 0] - 8, nodes[:, 1] - 8), 3, atol=1e-9)
+
+    def test_an_edge_of_several_pieces(self):
+        shape = flush()
+        name = edge(shape, (0, 0, 3), (10, 0, 3))
+        found = self.check(shape, size=1, refine={name: 1})
+        self.assertEqual(len(found.groups[name]["segments"]), 3 * len(mesh(shape, size=1).groups[name]["segments"]))
+
+    def test_by_themselves_and_apart(self):
+        """With nodes of their own solids are refined each for itself; in one mesh with others a solid that touches none."""
+        self.assertEqual(self.cells(mesh(box_on_box(), size=1, order=1, interfaces="separate", refine={"Solid2": 1}))[0], 300)
+        shape = Part.Compound([*laminate(1, 1).Solids, Part.makeBox(2, 2, 2, VECTOR(20, 0, 0))])
+        for name, changed in (("Solid3", [False, False, True]), ("Solid1", [True, True, False])):
+            plain, found = (self.cells(mesh(shape, size=1, order=1, refine=refine)) for refine in ({}, {name: 1}))
+            self.assertEqual([a != b for a, b in zip(plain, found)], changed)
+
+    def test_refused(self):
+        part = self.save(pin_in_plate())
+        self.assertIn("Face99 does not exist", self.refuses(part, "--refine", "Face99=1"))
+        self.assertIn("the edge is a seam", self.refuses(part, "--refine", edge(pin_in_plate(), (11, 8, 0), (11, 8, 4)) + "=1"))
+        self.assertIn("more than the 10000000", self.refuses(part, "--refine", "Solid1=6"))
+
+
 class OneInACompound(unittest.TestCase):
     def test_is_the_mesh_of_the_solid(self):
         """Bit for bit, in all that comes out."""
@@ -209,9 +272,9 @@ class Patch(unittest.TestCase):
         return np.unique(np.concatenate([rows[0] for rows in sides.values() if len(rows) == 1]))
 
     def test_a_linear_field_across_interfaces(self):
-        for shape, size in ((laminate(2, 1.5, 2), 3), (pin_in_plate(), 4), (box_on_box(), 2)):
+        for shape, size, refine in ((laminate(2, 1.5, 2), 3, {}), (pin_in_plate(), 4, {}), (box_on_box(), 2, {}), (laminate(6, 6), 6, {"Solid2": 1})):
             for order in (1, 2):
-                found = mesh(shape, size=size, order=order, min_layers=2, per_circle=0)
+                found = mesh(shape, size=size, order=order, min_layers=2, per_circle=0, refine=refine)
                 expected = (found.nodes @ self.FIELD.T).reshape(-1)
                 fixed = np.zeros(len(expected), bool)
                 fixed[(3 * self.outer_nodes(found)[:, None] + np.arange(3)).reshape(-1)] = True

@@ -166,12 +166,19 @@ TEST(LocalRefinement, OfSeveralSolids) {
   ASSERT_EQ(refined.report.solids.size(), 2u);
   EXPECT_EQ(refined.report.solids[1].report.hexes, 27 * refined.report.solids[0].report.hexes);
   EXPECT_GT(meshed(touching, "Face1=1", "separate").report.solids[0].report.hexes, 8);
-  try {
-    meshed(touching, "Face1=1", "conform");
-    FAIL();
-  } catch (const InvalidInput& e) {
-    EXPECT_THAT(e.what(), HasSubstr("--refine goes with --interfaces separate only"));
+  // Face2 is the first box's at X = 10, Face7 the second's: one face, by either number.
+  for (const char* interface : {"Face2=1", "Face7=1"}) {
+    const PartMesh joined = meshed(touching, interface, "conform");
+    EXPECT_EQ(joined.report.solids[0].report.hexes, joined.report.solids[1].report.hexes);
+    EXPECT_GT(joined.report.solids[0].report.hexes, 8);
+    for (const FemGroup& group : joined.fem.groups) {
+      if (group.solid > 0 && group.other > 0) {
+        EXPECT_GE(group.elements.size(), 9u);
+      }
+    }
   }
+  const PartMesh beyond = meshed(touching, "Face1=1", "conform");
+  EXPECT_LT(beyond.report.solids[1].report.hexes, beyond.report.solids[0].report.hexes);
 }
 
 TEST(RefinedBores, HaveTheLevelsThatFourElementsNeed) {

@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "core/quality.h"
 #include "pad/pad.h"
+#include "pad/topology.h"
 #include "refine/refine.h"
 #include "support/grids.h"
 
@@ -100,6 +103,37 @@ TEST(RefineCells, OfAFaceHasNineQuadsForEach) {
     expect_sound(grid.mesh, result, 0.1);
     EXPECT_EQ(quads_on_faces(result.association).at(face), 9 * quads);
   }
+}
+
+// As between two solids: the quads of a plane through the box, each as the cell below sees it.
+TEST(RefineCells, QuadsBetweenCells) {
+  Grid grid = box_grid(3);  // 9 x 6 x 3 cells
+  const int patch = static_cast<int>(grid.association.patches.size());
+  grid.association.patches.push_back({99});
+  for (const Hex& hex : grid.mesh.hexes) {
+    const auto& c = kHexFaces[5];
+    const Quad quad{hex[c[0]], hex[c[1]], hex[c[2]], hex[c[3]]};
+    if (std::abs(grid.mesh.points[quad[0]][2] - 1.0 / 3) > 1e-9) continue;
+    grid.association.quads.push_back(quad);
+    grid.association.quad_patch.push_back(patch);
+  }
+  ASSERT_EQ(quads_on_faces(grid.association).at(99), 54);
+  const RefinedMesh result = refine_cells(grid.mesh, grid.association, {cells_at(grid.mesh, grid.association, {2, 99}), {}}, Monitor());
+  EXPECT_EQ(quads_on_faces(result.association).at(99), 9 * 54);
+  EXPECT_EQ(result.mesh.hexes.size(), (27 * 2 + 13) * 54U);
+  const RefinedMesh corner = refined({"", grid.mesh, grid.association}, {0, 1}, 2);
+  const HexTopology topology = build_topology(corner.mesh, corner.association.quads);
+  double area = 0;
+  for (std::size_t q = 0; q < corner.association.quads.size(); ++q) {
+    if (corner.association.quad_patch[q] != patch) continue;
+    const Quad& quad = corner.association.quads[q];
+    EXPECT_EQ(sides_at(corner.mesh, topology, quad).size(), 2U);
+    const std::vector<Vec3>& p = corner.mesh.points;
+    const Vec3 twice = (p[quad[2]] - p[quad[0]]).cross(p[quad[3]] - p[quad[1]]);
+    EXPECT_GT(twice[2], 0);
+    area += twice[2] / 2;
+  }
+  EXPECT_NEAR(area, 6, 1e-9);
 }
 
 TEST(RefineCells, GrowsToWhereThereAreTemplates) {

@@ -1,5 +1,7 @@
 """Several solids in one mesh: objects, groups, materials, ties."""
 
+import math
+
 import FreeCAD
 import ObjectsFem
 import Part
@@ -10,7 +12,7 @@ from freecad import polycube
 from freecad.polycube import objects, shapes
 
 
-class Solids(solving.SolveTest):
+class BarsTest(solving.SolveTest):
     """Two bars of 20 x 10 x 10 mm one behind the other along X, in one document."""
 
     def bars(self, placement=None):
@@ -44,6 +46,8 @@ class Solids(solving.SolveTest):
     def end(self, shape, x):
         return "Face{}".format(next(n for n, face in enumerate(shape.Faces, 1) if face.CenterOfMass.isEqual(Vector(x, 5, 5), 1e-6)))
 
+
+class Solids(BarsTest):
     def test_objects_become_a_compound(self):
         parts = self.bars()
         before = len(self.document.Objects)
@@ -97,6 +101,27 @@ class Solids(solving.SolveTest):
         self.assertEqual(shapes.solids_in(whole, parts[1], ("Solid1",)), [2])
         self.assertEqual(shapes.solids_in(whole, whole, ()), [1, 2])
 
+    def test_names_of_copies(self):
+        """Both ends of a cylinder are one face in two places, a bore is a copy of the pin that cut it, links are copies of what they show."""
+        self.document = FreeCAD.newDocument()
+        plate, pin, cut = (self.document.addObject("Part::" + kind, kind) for kind in ("Box", "Cylinder", "Cut"))
+        pin.Radius, pin.Height, pin.Placement.Base = 3, 10, Vector(5, 5, 0)
+        cut.Base, cut.Tool = plate, pin
+        link = self.document.addObject("App::Link", "Link")
+        link.LinkedObject, link.Placement.Base = cut, Vector(20, 0, 0)
+        self.document.recompute()
+        whole = self.compound([cut, pin, link])
+        for moved in (FreeCAD.Placement(), FreeCAD.Placement(Vector(1, 2, 30), FreeCAD.Rotation(Vector(1, 2, 3), 50))):
+            whole.Placement = moved
+            self.document.recompute()
+            first = {"Face": 1, "Edge": 1, "Vertex": 1, "Solid": 1}
+            for member in (cut, pin, link):
+                for kind, number in first.items():
+                    own = shapes.entities(member.Shape, kind)
+                    names = ["{}{}".format(kind, n) for n in range(1, len(own) + 1)]
+                    self.assertEqual(shapes.names_in(whole, member, names), ["{}{}".format(kind, n) for n in range(number, number + len(own))])
+                    first[kind] += len(own)
+
     def test_materials_and_tie(self):
         """In tension each bar stretches by its own modulus: F l / (E A); constraints on the compound and on its members."""
         parts = self.bars()
@@ -125,6 +150,113 @@ class Solids(solving.SolveTest):
         obj = polycube.create_fem_mesh(whole, size=5, order=1, min_layers=1, analysis=analysis)
         self.assertEqual(self.group(obj.FemMesh, "Steel_Volumes"), self.group(obj.FemMesh, "Solid1"))
         self.assertEqual(self.group(obj.FemMesh, "Aluminium_Volumes"), self.group(obj.FemMesh, "Solid2"))
+
+
+class Interfaces(BarsTest):
+    """FreeCAD's contact and tie between faces of two solids with nodes of their own, as CalculiX sees them: no Poisson's ratio, cells of other sizes on both sides."""
+
+    def between(self, analysis, kind, *references):
+        constraint = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(self.document, kind))[0]
+        constraint.References = list(references)
+        if kind == "Contact":
+            constraint.Slope = 1e8
+        else:
+            constraint.Tolerance = 0.1
+
+    def pulled(self, kind, by, references, slave_first):
+        """Forces along X with which the far end of the bars, moved by so much, is held, and their near end; the places of the two faces between afterwards."""
+        parts = self.bars()
+        whole = self.compound(parts)
+        shape = whole.Shape
+        analysis = self.analysis(whole, ["Face1"], PoissonRatio="0")
+        faces = [self.end(parts[0].Shape, 20), self.end(parts[1].Shape, 20)]
+        if references == "members":
+            references = list(zip(parts, faces))
+        else:
+            references = [(whole, faces[0]), (whole, "Face{}".format(6 + int(faces[1][4:])))]
+        self.between(analysis, kind, *(references if slave_first else reversed(references)))
+        end = self.end(shape, 40)
+        self.add(analysis, "Displacement", whole, end, xFree=False, xDisplacement=by, yFree=False, yFix=True, zFree=False, zFix=True)
+        polycube.create_fem_mesh(whole, size=5, sizes={"Solid2": 3}, min_layers=1, interfaces="separate", analysis=analysis)
+        solution = self.solve(analysis, whole)
+        places = [
+            {round(20 + vector.x, 9) for vector in self.of_face(solution, analysis, name, solution.result.DisplacementVectors)} for name in ("Solid1_Solid2", "Solid2_Solid1")
+        ]
+        return solving.total_of(solution.path, "Displacement"), solving.total_of(solution.path, "Support"), places
+
+    def test_pressed_and_drawn(self):
+        """Pressed, the load of E A d / L passes through either; drawn, contact opens and nothing passes, and a tie holds."""
+        whole = 210000 * 100 * 0.01 / 40
+        for kind in ("Contact", "Tie"):
+            for by in (-0.01, 0.01):
+                for references, slave_first in (("members", True), ("compound", False)):
+                    with self.subTest(kind, by=by, references=references):
+                        far, near, (one, other) = self.pulled(kind, by, references, slave_first)
+                        self.assertLess((far + near).Length, 1e-3 * whole)
+                        if kind == "Contact" and by > 0:
+                            self.assertLess(abs(far.x), 1e-3 * whole)
+                            self.assertAlmostEqual(min(other) - max(one), by, delta=1e-3 * by)
+                        else:
+                            self.assertAlmostEqual(far.x / whole, by / abs(by), delta=0.02)
+                            for place in one | other:
+                                self.assertAlmostEqual(place, 20 + by / 2, delta=0.1 * abs(by))
+
+    def pinned(self, shared):
+        """(objects, whole): a plate of 30 x 30 x 6 mm with a pin through its middle, in one object in which they share the bore's face, or in two with a compound."""
+        pin = Part.makeCylinder(5, 18, Vector(15, 15, -6))
+        plate = Part.makeBox(30, 30, 6).cut(pin)
+        if shared:
+            whole = self.part(plate.generalFuse([pin])[0])
+            return [whole, whole], whole
+        members = [self.part(plate), self.document.addObject("Part::Feature", "Pin")]
+        members[1].Shape = pin
+        return members, self.compound(members)
+
+    def round_face(self, obj):
+        faces = enumerate(obj.Shape.Faces, 1)
+        return next("Face{}".format(n) for n, face in faces if face.Surface.TypeId == "Part::GeomCylinder" and face.CenterOfMass.isEqual(Vector(15, 15, 3), 1e-6))
+
+    def test_a_pin_in_its_bore(self):
+        """A pin drawn along the plate: what moves it is what holds the plate, by contact all of it on one half of the bore, which opens on the other. A face that
+        both share is named once or twice, otherwise each of the objects has its own."""
+        carried = {}
+        for kind, named in (("Contact", "once"), ("Contact", "members"), ("Tie", "twice"), ("Tie", "members")):
+            members, whole = self.pinned(shared=named != "members")
+            bores = [(member, self.round_face(member)) for member in members][: 1 if named == "once" else 2]
+            side = next("Face{}".format(n) for n, face in enumerate(whole.Shape.Faces, 1) if face.CenterOfMass.isEqual(Vector(0, 15, 3), 1e-6))
+            ends = ["Face{}".format(n) for n, face in enumerate(whole.Shape.Faces, 1) if abs(face.Area - 25 * math.pi) < 1e-6]
+            analysis = self.analysis(whole, [side])
+            self.between(analysis, kind, *bores)
+            self.add(analysis, "Displacement", whole, *ends, xFree=False, xDisplacement=0.01, yFree=False, yFix=True, zFree=False, zFix=True)
+            polycube.create_fem_mesh(whole, size=3, min_layers=1, interfaces="separate", analysis=analysis)
+            solution = self.solve(analysis, whole)
+            drawn, held = (solving.total_of(solution.path, name) for name in ("Displacement", "Support"))
+            self.assertGreater(drawn.x, 1000)
+            self.assertLess((drawn + held).Length, 1e-3 * drawn.Length)
+            carried[kind, named] = drawn.x
+            mesh = self.mesh(analysis).FemMesh
+            at = dict(zip(solution.result.NodeNumbers, solution.result.DisplacementVectors))
+            for side in (-1, 1):
+                mean = []
+                for name in ("Solid1_Solid2", "Solid2_Solid1"):
+                    nodes = {node for quad in self.group(mesh, name) for node in mesh.getElementNodes(quad) if -0.1 < mesh.Nodes[node].z < 6.1}
+                    along = [at[node].x for node in nodes if side * (mesh.Nodes[node].x - 15) > 4.5]
+                    mean.append(sum(along) / len(along))
+                if kind == "Contact" and side < 0:
+                    self.assertGreater(abs(mean[1] - mean[0]), 3e-3)
+                else:
+                    self.assertLess(abs(mean[1] - mean[0]), 5e-4)
+        self.assertAlmostEqual(carried["Tie", "members"] / carried["Tie", "twice"], 1, delta=0.01)
+        self.assertLess(max(carried["Contact", "once"], carried["Contact", "members"]), 0.8 * carried["Tie", "twice"])
+
+    def test_common_nodes_are_no_contact(self):
+        members, whole = self.pinned(shared=False)
+        analysis = self.analysis(whole, ["Face1"])
+        self.between(analysis, "Tie", *((member, self.round_face(member)) for member in members))
+        self.add(analysis, "Force", members[1], "Face2", Force=100, Direction=(members[1], ["Face2"]))
+        polycube.create_fem_mesh(whole, size=6, min_layers=1, analysis=analysis)
+        with self.assertRaisesRegex(polycube.InvalidInput, "Tie: the solids have common nodes where it acts; make the mesh with Interfaces = separate"):
+            self.solve(analysis, whole)
 
 
 class Inputs(solving.SolveTest):

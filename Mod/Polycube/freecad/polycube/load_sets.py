@@ -1,8 +1,9 @@
 """FreeCAD's solver writers take the nodes and mesh faces of a constraint from the groups of a Polycube mesh.
 
 FreeCAD searches for them in space, within 1e-7 mm. That misses mid-edge nodes which could not be on the CAD, finds no sides of hexahedra for heat flux and
-section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. The groups know all of it, whenever
-the constraint was made. `install` puts them before the search, for our meshes only, and has the Report view tell of a load that the mesh does not take.
+section print (FreeCAD 0.20 and 1.0), and gives a force by areas of triangles, a few percent short on coarse round faces. Of a face between two solids it cannot
+tell the nodes of one from those of the other. The groups know all of it, whenever the constraint was made. `install` puts them before the search, for our
+meshes only, and has the Report view tell of a load that the mesh does not take.
 """
 
 import functools
@@ -10,6 +11,7 @@ import functools
 import FreeCAD
 
 from . import compat, shapes
+from .errors import InvalidInput
 
 #: what the search for nodes and mesh faces leaves in the entry of a constraint
 _FOUND = (
@@ -45,10 +47,17 @@ def install(grouped_shape):
         from femmesh.meshsetsgetter import MeshSetsGetter
     except ImportError:
         return False
-    names = ("__init__", "get_constraints_force_nodeloads", "get_constraints_pressure_faces", "get_mesh_sets")
-    if not all(hasattr(MeshSetsGetter, name) for name in names):
+    wrappers = {
+        "__init__": functools.partial(_with_groups, grouped_shape),
+        "get_constraints_force_nodeloads": _whole_forces,
+        "get_constraints_pressure_faces": _whole_pressures,
+        "get_constraints_contact_faces": functools.partial(_sides_between, "Contact"),
+        "get_constraints_tie_faces": functools.partial(_sides_between, "Tie"),
+        "get_mesh_sets": _with_losses_told,
+    }
+    if not all(hasattr(MeshSetsGetter, name) for name in wrappers):
         return False
-    for name, wrapper in zip(names, (functools.partial(_with_groups, grouped_shape), _whole_forces, _whole_pressures, _with_losses_told)):
+    for name, wrapper in wrappers.items():
         setattr(MeshSetsGetter, name, wrapper(getattr(MeshSetsGetter, name)))
     return True
 
@@ -60,7 +69,7 @@ class GroupedMesh:
         self.owner = owner
         self._mesh = mesh = owner.FemMesh
         self.part_volume, self.faces = shape.Volume, shape.Faces
-        self._shapes = {"Face": shape.Faces, "Edge": shape.Edges, "Vertex": shape.Vertexes, "Solid": shape.Solids}
+        self._shape = shape
         self._elements = {}
         for group in mesh.Groups:
             self._elements[mesh.getGroupName(group), mesh.getGroupElementType(group)] = group
@@ -81,8 +90,20 @@ class GroupedMesh:
     def elements(self, shape, kind):
         """Numbers of the mesh's elements (of a vertex: nodes) on a face, edge, vertex or solid of the part; empty where the mesh has no group for it."""
         name = shape.ShapeType
-        group = self._elements.get((name + str(shapes.number_of(self._shapes.get(name, ()), shape)), kind))
+        group = self._elements.get((name + str(shapes.number_of(self._shape, shape)), kind))
         return () if group is None else self._mesh.getGroupElements(group)
+
+    def sides_of(self, obj, face):
+        """[mesh faces on a face of the part, for each solid that has them with nodes of its own]: of a face that solids share those of the object's solids."""
+        name = "Face{}".format(shapes.number_of(self._shape, face, obj.Shape))
+        solids = {shapes.number_of(self._shape, solid) for solid in obj.Shape.Solids}
+        groups = [self._elements.get(("Solid{}_{}".format(number, name), "Face")) for number in sorted(solids)]
+        groups = [group for group in groups if group is not None] or [self._elements.get((name, "Face"))]
+        return [self._mesh.getGroupElements(group) for group in groups if group is not None]
+
+    def between_solids(self):
+        """Mesh faces at which two solids touch."""
+        return {face for (name, kind), group in self._elements.items() if kind == "Face" and name.count("Solid") == 2 for face in self._mesh.getGroupElements(group)}
 
     def _nodes(self, shape, kind, search):
         elements = self.elements(shape, kind)
@@ -208,6 +229,11 @@ def _whole_pressures(original):
     return _replaced(original, "cons_pressure", _fill_pressure)
 
 
+def _sides_between(kind, original):
+    """Of two faces in contact or tied the sides of cells, each of its own solid. One face that two solids share is both of them."""
+    return _replaced(original, "cons_" + kind.lower(), functools.partial(_fill_sides, kind))
+
+
 def _replaced(original, members, fill):
     """Has `fill` do the members that it can do by our groups, and the original the others."""
 
@@ -296,6 +322,21 @@ def _fill_pressure(mesh, member):
             return False
         faces += mesh.getccxVolumesByFace(shape)
     member["PressureFaces"] = [("{}: face load".format(member["Object"].Name), faces)]
+    return True
+
+
+def _fill_sides(kind, mesh, member):
+    constraint = member["Object"]
+    found = [mesh.sides_of(obj, shape) if shape.ShapeType == "Face" else [] for obj, _, shape in _shapes(constraint)]
+    if len(found) == 1:
+        found = [[side] for side in found[0]]
+    if len(found) != 2 or not all(found):
+        return False
+    slave, master = ([face for side in sides for face in side] for sides in found)
+    if mesh.between_solids().intersection(slave).intersection(master):
+        raise InvalidInput("{}: the solids have common nodes where it acts; make the mesh with Interfaces = separate".format(constraint.Label))
+    sides = mesh.sides()
+    member[kind + "SlaveFaces"], member[kind + "MasterFaces"] = ([list(sides[face]) for face in faces] for faces in (slave, master))
     return True
 
 

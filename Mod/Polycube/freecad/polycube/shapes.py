@@ -95,10 +95,27 @@ def numbered_shape(part):
     return inside[0].Shape if len(inside) == 1 else Part.makeCompound([member.Shape for member in inside])
 
 
-def number_of(entities, shape):
-    """The number of a face, edge, vertex or solid among those of a part, from 1, or 0: itself, a copy, or of solids one of the same volume at the same place."""
-    numbered = list(enumerate(entities, 1))
-    same = [number for number, own in numbered if own.isSame(shape)] or [number for number, own in numbered if own.isPartner(shape)]
+def number_of(whole, shape, owner=None):
+    """The number of a face, edge, vertex or solid in a shape, from 1, or 0: itself, a copy, or of solids one of the same volume at the same place. Of several
+    copies (both ends of a cylinder, a bore and the pin that cut it, an array) it is the one in the same place, or moved there with the whole, and turned alike;
+    with `owner`, the shape that it is from, in a solid of that."""
+    numbered = list(enumerate(entities(whole, shape.ShapeType), 1))
+    same = [number for number, own in numbered if own.isSame(shape)]
+    copies = [] if same else [(number, own) for number, own in numbered if own.isPartner(shape)]
+    if len(copies) > 1:
+        places = [placement.toMatrix().A for placement in (shape.Placement, whole.Placement.multiply(shape.Placement))]
+
+        def unlike(copy):
+            own = copy[1].Placement.toMatrix().A
+            reach = RELATIVE_TOLERANCE * max(1.0, *map(abs, own))
+            near = [all(abs(a - b) <= reach for a, b in zip(own, place)) for place in places]
+            strange = not any(copy[1].isSame(entity) for entity in inside)
+            return near.index(True) if True in near else len(near), strange, copy[1].Orientation != shape.Orientation
+
+        solids = {number_of(whole, solid) for solid in owner.Solids} - {0} if owner else ()
+        inside = [entity for number in solids for entity in entities(whole.Solids[number - 1], shape.ShapeType)]
+        copies.sort(key=unlike)
+    same += [number for number, _ in copies]
     if not same and shape.ShapeType == "Solid":
         same = [number for number, own in numbered if _coincide(own, shape)]
     return same[0] if same else 0
@@ -125,7 +142,7 @@ def names_in(part, obj, names):
         own = entities(shape, kind)
         number = int(name[len(kind) :] or 0)
         if 1 <= number <= len(own):
-            same = number_of(entities(whole, kind), own[number - 1])
+            same = number_of(whole, own[number - 1], shape)
             found += ["{}{}".format(kind, same)] if same else []
     return found
 
@@ -135,7 +152,7 @@ def solids_in(part, obj, names):
     shape = getattr(obj, "Shape", None)
     if not shape or shape.isNull():
         return []
-    whole, found = entities(numbered_shape(part), "Solid"), set()
+    whole, found = numbered_shape(part), set()
     for name in names or ("",):
         wanted = [shape.Solids[int(name[5:]) - 1]] if name.startswith("Solid") else (shape.getElement(name) if name else shape).Solids
         found.update(number_of(whole, solid) for solid in wanted)

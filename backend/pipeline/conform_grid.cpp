@@ -55,38 +55,49 @@ std::vector<int> solids_of_blocks(const TetMesh& tets, const PolycuboidMap& map,
   return result;
 }
 
-std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& complex, const PolycuboidMap& map, const std::vector<int>& block_solid,
-                                                   const std::vector<int>& layers, const std::vector<char>& may_yield) {
+namespace {
+
+bool parted(const BlockComplex& complex, const std::vector<int>& block_solid, int block, int side) {
+  const int beside = complex.blocks[block].neighbours[side];
+  return beside >= 0 && block_solid[beside] != block_solid[block];
+}
+
+}  // namespace
+
+void bound_at_interfaces(BlockComplex& complex, const PolycuboidMap& map, const std::vector<int>& block_solid) {
   std::array<int, 3> feature{-1, -1, -1};
   for (int c = 0; c < static_cast<int>(map.charts.size()); ++c)
     if (map.charts[c].sign == 0) feature[static_cast<std::size_t>(map.charts[c].axis)] = c;
+  for (int b = 0; b < static_cast<int>(complex.blocks.size()); ++b) {
+    for (int side = 0; side < 6; ++side) {
+      if (!parted(complex, block_solid, b, side)) continue;
+      const int chart = feature[static_cast<std::size_t>(side / 2)];
+      if (chart < 0) throw StageFailed("interfaces", "the grid changes from one solid to another where there is no interface");
+      for (const int k : kHexFaces[side]) complex.feature_vertices[chart].push_back(complex.blocks[b].corners[k]);
+    }
+  }
+  for (auto& vertices : complex.feature_vertices) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
+}
+
+std::vector<DistanceConstraint> walls_of_solids(const BlockComplex& complex, const std::vector<int>& block_solid, const std::vector<int>& layers,
+                                                const std::vector<char>& may_yield) {
   std::vector<DistanceConstraint> constraints;
-  const auto parted = [&](int b, int side) {
-    const int n = complex.blocks[b].neighbours[side];
-    return n >= 0 && block_solid[n] != block_solid[b];
-  };
+  const auto ends = [&](int b, int side) { return complex.blocks[b].neighbours[side] < 0 || parted(complex, block_solid, b, side); };
   for (int b = 0; b < static_cast<int>(complex.blocks.size()); ++b) {
     for (int d = 0; d < 3; ++d) {
-      for (const int side : {2 * d, 2 * d + 1}) {
-        if (!parted(b, side)) continue;
-        const int chart = feature[static_cast<std::size_t>(d)];
-        if (chart < 0) throw StageFailed("interfaces", "the grid changes from one solid to another where there is no interface");
-        for (const int k : kHexFaces[side]) complex.feature_vertices[chart].push_back(complex.blocks[b].corners[k]);
-      }
       // A line of blocks of one solid from one end to the other; those between outer charts alone the quantization knows by itself.
-      if (complex.blocks[b].neighbours[2 * d] >= 0 && !parted(b, 2 * d)) continue;
+      if (!ends(b, 2 * d)) continue;
       int last = b;
-      while (complex.blocks[last].neighbours[2 * d + 1] >= 0 && !parted(last, 2 * d + 1)) last = complex.blocks[last].neighbours[2 * d + 1];
+      while (!ends(last, 2 * d + 1)) last = complex.blocks[last].neighbours[2 * d + 1];
       const int low = complex.blocks[b].charts[d][0], high = complex.blocks[last].charts[d][1], least = layers[block_solid[b]];
       constraints.push_back({low, high, 1, std::numeric_limits<int>::max(), "an element through the walls of a solid"});
       if (least > 1)
         constraints.push_back({low, high, least, std::numeric_limits<int>::max(), std::to_string(least) + " elements through the walls of a solid",
                                may_yield[block_solid[b]] != 0});
     }
-  }
-  for (auto& vertices : complex.feature_vertices) {
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   }
   return constraints;
 }

@@ -13,10 +13,13 @@ namespace polycube {
 /// Per block the index of its solid. Throws StageFailed("interfaces", ...) where an interface does not part the blocks.
 std::vector<int> solids_of_blocks(const TetMesh& tets, const PolycuboidMap& map, const BlockComplex& blocks);
 
-/// Interfaces bound the blocks on both sides as charts do: their vertices take part in C2, and the walls between them get an element at least, and by solid as
-/// many as `layers` says; those may yield where `may_yield` says so.
-std::vector<DistanceConstraint> part_at_interfaces(BlockComplex& blocks, const PolycuboidMap& map, const std::vector<int>& block_solid,
-                                                   const std::vector<int>& layers, const std::vector<char>& may_yield);
+/// Interfaces bound the blocks on both sides as charts do: their vertices take part in C2.
+void bound_at_interfaces(BlockComplex& blocks, const PolycuboidMap& map, const std::vector<int>& block_solid);
+
+/// The walls between interfaces, and between these and outer charts, get an element at least, and by solid as many as `layers` says; those may yield where
+/// `may_yield` says so.
+std::vector<DistanceConstraint> walls_of_solids(const BlockComplex& blocks, const std::vector<int>& block_solid, const std::vector<int>& layers,
+                                                const std::vector<char>& may_yield);
 
 /// What one solid has of a mesh.
 struct SolidGrid {

@@ -12,19 +12,16 @@
 #include "core/parallel.h"
 #include "fem/conform.h"
 #include "fit/fit.h"
-#include "label/frame.h"
 #include "pad/associate.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/bounds.h"
 #include "pipeline/conform_demands.h"
 #include "pipeline/conform_grid.h"
-#include "pipeline/conform_labels.h"
 #include "pipeline/conform_pad.h"
 #include "pipeline/gate.h"
 #include "pipeline/integers.h"
 #include "pipeline/local_refinement.h"
 #include "pipeline/loose_nodes.h"
-#include "pipeline/realise.h"
 #include "pipeline/shortfalls.h"
 #include "pipeline/solids.h"
 #include "pipeline/stage_clock.h"
@@ -49,6 +46,10 @@ constexpr double kGood = 0.2;
 constexpr double kPaddedMiss = 0.1;
 constexpr int kRecounts = 2;
 
+double size_of(const MeshOptions& options, const Assembly& assembly) {
+  return options.hexes > 0 ? std::cbrt(assembly.volume() / options.hexes) : effective_size(options, assembly.diagonal());
+}
+
 double typical_edge(const HexMesh& mesh) {
   double sum = 0;
   for (const Hex& h : mesh.hexes)
@@ -56,16 +57,11 @@ double typical_edge(const HexMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.hexes.size()));
 }
 
-/// What does not depend on sizes and counts.
+/// A structure with what is asked of the mesh on it.
 struct Base {
-  TetMesh tets;
-  InterfaceCharts between;
-  Features features;
-  PolycuboidMap map;
-  BlockComplex blocks;
-  std::vector<int> block_solid;
-  std::vector<DistanceConstraint> walls;
-  DemandPlaces places;
+  const ConformalStructure& s;
+  std::vector<DistanceConstraint> walls{};
+  DemandPlaces places{};
 };
 
 struct Draft {
@@ -90,33 +86,21 @@ struct Draft {
 
 class Conformer {
  public:
-  Conformer(const ConformalModel& model, const Assembly& assembly, const MeshOptions& options, const Monitor& monitor)
-      : model_(model),
-        assembly_(assembly),
-        options_(options_of_unit(options, model, assembly)),
-        monitor_(monitor),
-        clock_(monitor),
-        size_(size_of()),
-        given_{{}, ignored_edges(options_, model)} {}
+  /// `options`: of the joined solids.
+  Conformer(const ConformalModel& model, const Assembly& assembly, const MeshOptions& options, ConformalStructures& structures, StageClock& clock,
+            const Monitor& monitor)
+      : model_(model), assembly_(assembly), options_(options), structures_(structures), clock_(clock), monitor_(monitor), size_(size_of(options, assembly)) {}
 
   ConformalMesh run() {
-    check_demands(options_, model_, assembly_, size_);
-    tets_ = clock_.stage("tet", [&] { return tetrahedralise(model_.whole, model_.solids, tet_options(size_, model_.outer.diagonal()), monitor_); });
-    const Mat3 frame = options_.frame.empty() ? find_frame(model_.whole) : frame_of(options_.frame);
-    LabelOptions label = label_options(options_);
-    label.frame_given = true;
-    label.frame = frame;
-    given_.faces = labels_by_solid(options_.labels, model_, tets_, frame);
     std::optional<Draft> best;
     std::optional<StageFailed> failure;
-    std::set<std::array<std::vector<int>, 2>> known;
     int tried = 0;
     for (int i = 0; i < kLabellings; ++i) {
       try {
         ++tried;
-        const ConformalLabels labels = clock_.stage("label", [&] { return label_conformally(model_, tets_, label, given_, i, monitor_); });
-        if (!known.insert({labels.labelling.label, labels.inner_label}).second) continue;
-        Draft draft = drafted(labels);
+        const ConformalStructure* structure = structures_.structure(i, clock_, monitor_);
+        if (!structure) continue;
+        Draft draft = drafted(based(*structure));
         const auto rank = [](const Draft& d) { return std::pair(-d.lost(), d.fitted.min_scaled_jacobian); };
         if (!best || rank(draft) > rank(*best)) best = std::move(draft);
         if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kGood) break;
@@ -133,10 +117,36 @@ class Conformer {
     return finished(*best, tried);
   }
 
+  /// Hexahedra of the mesh, without fitting them: those of the first labelling that comes to a grid.
+  int count() {
+    std::optional<StageFailed> failure;
+    for (int i = 0; i < kLabellings; ++i) {
+      try {
+        if (const ConformalStructure* structure = structures_.structure(i, clock_, monitor_)) return count(based(*structure));
+      } catch (const StageFailed& e) {
+        if (!failure) failure = e;
+      }
+    }
+    throw StageFailed(*failure);
+  }
+
  private:
-  double size_of() const {
-    if (options_.hexes > 0) return std::cbrt(assembly_.volume() / options_.hexes);
-    return effective_size(options_, assembly_.diagonal());
+  int count(const Base& base) {
+    int cells = 0;
+    double share = 1;
+    for (int round = 0; round <= kRecounts; ++round) {
+      Laid made = laid(base, options_.divisions, share);
+      const std::size_t first =
+          made.choices.size() < 2 ? 0 : clock_.stage("fit", [&] { return most_promising(model_.whole, candidates_of(made.choices), fit_options(), monitor_); });
+      const JoinedGrids& joined = made.choices[first].joined;
+      const auto found = static_cast<int>(count_refined(joined.whole.mesh, joined.whole.association, places_of(joined), kAllLevels, monitor_));
+      const auto miss = [&](int n) { return std::abs(n / wanted_cells() - 1); };
+      if (round > 0 && miss(found) >= miss(cells)) break;
+      cells = found;
+      if (options_.hexes <= 0 || miss(cells) <= kPaddedMiss) break;
+      share = made.draft.grid_hexes / cells;
+    }
+    return cells;
   }
 
   /// What is asked of a solid, by its number in the assembly.
@@ -148,8 +158,9 @@ class Conformer {
     return without_solids(own);
   }
 
-  /// Cells through the walls of each solid, and places with the sizes of the solids.
-  void place_demands(Base& base) const {
+  /// With cells through the walls of each solid, and places with the sizes of the solids.
+  Base based(const ConformalStructure& structure) const {
+    Base base{structure};
     std::vector<int> layers;
     std::vector<char> may_yield;
     std::vector<double> size;
@@ -159,17 +170,10 @@ class Conformer {
       may_yield.push_back(own.min_layers == 0);
       size.push_back(options_.coarsest ? 0 : own.size);
     }
-    base.walls = part_at_interfaces(base.blocks, base.map, base.block_solid, layers, may_yield);
-    base.places = find_places(model_, assembly_, base.tets, base.map, base.blocks, base.block_solid, base.between.chart);
-    for (const int s : base.block_solid) base.places.block_size.push_back(size[static_cast<std::size_t>(s)]);
-  }
-
-  /// CAD edges where interfaces end: the charts of these hold them.
-  std::vector<char> interface_edges() const {
-    std::vector<char> edges(static_cast<std::size_t>(model_.whole.edge_count()) + 1, 0);
-    for (const auto& interface : model_.interfaces)
-      for (const int e : model_.whole.face(interface.first).edges) edges[static_cast<std::size_t>(e)] = 1;
-    return edges;
+    base.walls = walls_of_solids(structure.blocks, structure.block_solid, layers, may_yield);
+    base.places = find_places(model_, assembly_, structure.tets, structure.map, structure.blocks, structure.block_solid, structure.between.chart);
+    for (const int s : structure.block_solid) base.places.block_size.push_back(size[static_cast<std::size_t>(s)]);
+    return base;
   }
 
   /// Demands on single faces and edges alone.
@@ -182,34 +186,7 @@ class Conformer {
     return own;
   }
 
-  Base based(const ConformalLabels& labels) {
-    Base base;
-    base.tets = labels.mesh;
-    base.between = interface_charts(labels);
-    base.features = clock_.stage("label", [&] { return find_features(model_.outer, base.tets, labels.labelling, left_out(), monitor_); });
-    DeformOptions deform_options;
-    deform_options.merge = merge_distance(size_, model_.outer.diagonal());
-    deform_options.threads = thread_count(options_.threads);
-    RealisedMap realised = clock_.stage(
-        "deform", [&] { return realise(model_.outer, base.tets, labels.labelling, base.features, deform_options, monitor_, base.between.charts); });
-    base.map = std::move(realised.map);
-    monitor_.log("deform: " + std::to_string(base.map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
-                 std::to_string(base.tets.tets.size()) + " tets");
-    base.blocks = clock_.stage("blocks", [&] { return extract_blocks(base.tets, base.map, monitor_); });
-    base.block_solid = solids_of_blocks(base.tets, base.map, base.blocks);
-    place_demands(base);
-    return base;
-  }
-
-  /// Joined edges without feature charts: where interfaces end, and those that the user does without.
-  std::vector<char> left_out() const {
-    std::vector<char> edges = interface_edges();
-    for (std::size_t e = 0; e < edges.size(); ++e) edges[e] |= given_.left_out[e];
-    return edges;
-  }
-
-  Draft drafted(const ConformalLabels& labels) {
-    const Base base = based(labels);
+  Draft drafted(const Base& base) {
     Draft draft = gridded(base, options_.divisions, 1);
     if (options_.hexes > 0) recount(base, draft);
     retry_padded(base, draft);
@@ -290,7 +267,7 @@ class Conformer {
 
   /// `share`: of the grid's cells among all, where a number of them is asked for.
   Quantization quantized(const Base& base, const Divisions& divisions, double share) const {
-    auto chains = edge_chains(model_.outer, base.tets);
+    auto chains = edge_chains(model_.outer, base.s.tets);
     const MeshOptions demands = by_entity(divisions);
     IntegerOptions wanted;
     wanted.scale = options_.coarsest ? kCoarsest : 1 / size_;
@@ -299,46 +276,61 @@ class Conformer {
     wanted.coarsest = options_.coarsest;
     wanted.demanded = [&](double scale) {
       try {
-        QuantizeOptions asked = quantize_options(base.places, base.tets, base.map, base.blocks, demands, scale);
+        QuantizeOptions asked = quantize_options(base.places, base.s.tets, base.s.map, base.s.blocks, demands, scale);
         asked.constraints.insert(asked.constraints.end(), base.walls.begin(), base.walls.end());
         return asked;
       } catch (const StageFailed& e) {
         throw as_joined(e, model_);
       }
     };
-    wanted.room = room_for_vertices(model_.outer, base.tets, base.map, base.blocks, chains, given_.left_out);
-    const std::vector<char> held = interface_edges();
-    chains = all_edge_chains(model_, base.tets);
-    for (const FeatureEdge& e : base.features.edges)
+    wanted.room = room_for_vertices(model_.outer, base.s.tets, base.s.map, base.s.blocks, chains, structures_.ignored());
+    const std::vector<char>& held = structures_.interface_edges();
+    chains = all_edge_chains(model_, base.s.tets);
+    for (const FeatureEdge& e : base.s.features.edges)
       if (e.capture == EdgeCapture::kLost && !held[static_cast<std::size_t>(e.edge)]) chains[e.edge].clear();
-    wanted.bounds = part_bounds(model_.whole, base.tets, base.map, base.blocks, chains, options_);
-    return find_integers(base.blocks, base.map, wanted, monitor_).quantization;
+    wanted.bounds = part_bounds(model_.whole, base.s.tets, base.s.map, base.s.blocks, chains, options_);
+    return find_integers(base.s.blocks, base.s.map, wanted, monitor_).quantization;
   }
 
-  Draft gridded(const Base& base, const Divisions& divisions, double share) {
+  /// A grid with its paddings, not fitted.
+  struct Laid {
     Draft draft;
+    HexComplex hexes;
+    std::vector<SolidGrid> grids;
+    std::vector<PaddedGrids> choices;
+  };
+
+  Laid laid(const Base& base, const Divisions& divisions, double share) {
+    Laid result;
+    Draft& draft = result.draft;
     draft.quantization = clock_.stage("quantize", [&] { return quantized(base, divisions, share); });
-    const HexComplex hexes = clock_.stage("hex", [&] {
+    HexComplex& hexes = result.hexes;
+    hexes = clock_.stage("hex", [&] {
       const std::vector<int>& value = draft.quantization.value;
-      Spacing spacing = graded_spacing(base.blocks, base.map, value, options_.growth);
+      Spacing spacing = graded_spacing(base.s.blocks, base.s.map, value, options_.growth);
       try {
-        bias_edges(base.places.edge_chains, base.tets, base.map, base.blocks, options_.bias, value, spacing);
+        bias_edges(base.places.edge_chains, base.s.tets, base.s.map, base.s.blocks, options_.bias, value, spacing);
       } catch (const StageFailed& e) {
         throw as_joined(e, model_);
       }
-      return build_hexes(base.tets, base.map, base.blocks, draft.quantization, monitor_, spacing);
+      return build_hexes(base.s.tets, base.s.map, base.s.blocks, draft.quantization, monitor_, spacing);
     });
-    monitor_.log("hex: " + std::to_string(base.blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
+    monitor_.log("hex: " + std::to_string(base.s.blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
     draft.grid_hexes = static_cast<double>(hexes.mesh.hexes.size());
-    draft.charts = static_cast<int>(base.map.charts.size());
-    draft.blocks = static_cast<int>(base.blocks.blocks.size());
+    draft.charts = static_cast<int>(base.s.map.charts.size());
+    draft.blocks = static_cast<int>(base.s.blocks.blocks.size());
     std::vector<int> hex_solid;
-    for (const int b : hexes.hex_block) hex_solid.push_back(base.block_solid[b]);
-    std::vector<SolidGrid> grids;
+    for (const int b : hexes.hex_block) hex_solid.push_back(base.s.block_solid[b]);
     std::vector<std::vector<PaddedMesh>> choices;
     std::vector<std::vector<int>> added;
-    for (int s = 0; s < static_cast<int>(model_.solids.size()); ++s) pad_solid(s, base, hexes, hex_solid, grids, choices, added);
-    fit_choices(draft, paddings(grids, choices, added, hexes.mesh.points.size()));
+    for (int s = 0; s < static_cast<int>(model_.solids.size()); ++s) pad_solid(s, base, hexes, hex_solid, result.grids, choices, added);
+    result.choices = paddings(result.grids, choices, added, hexes.mesh.points.size());
+    return result;
+  }
+
+  Draft gridded(const Base& base, const Divisions& divisions, double share) {
+    auto [draft, hexes, grids, choices] = laid(base, divisions, share);
+    fit_choices(draft, std::move(choices));
     for (const auto& hex_of : draft.joined.hex) draft.hex_block.resize(draft.hex_block.size() + hex_of.size(), -1);
     for (std::size_t s = 0; s < grids.size(); ++s) {
       std::vector<int> own;
@@ -352,17 +344,22 @@ class Conformer {
       for (std::size_t p = 0; p < mesh.points.size(); ++p) mesh.points[p] = draft.joined.whole.mesh.points[draft.joined.node[s][p]];
       gate(model_.solids[s], draft.solids[s], options_.threads, monitor_);
     }
-    return draft;
+    return std::move(draft);
+  }
+
+  RefinePlan places_of(const JoinedGrids& joined) const {
+    RefinePlan plan;
+    plan.everywhere = options_.refine;
+    plan.pieces = pieces_of(model_);
+    plan.hex_solid.resize(joined.whole.mesh.hexes.size());
+    for (std::size_t s = 0; s < joined.hex.size(); ++s)
+      for (const int h : joined.hex[s]) plan.hex_solid[h] = model_.numbers[s];
+    return plan;
   }
 
   /// Locally, in all solids at once: templates go on through interfaces.
   void refine(Draft& draft) {
-    RefinePlan plan;
-    plan.everywhere = options_.refine;
-    plan.pieces = pieces_of(model_);
-    plan.hex_solid.resize(draft.joined.whole.mesh.hexes.size());
-    for (std::size_t s = 0; s < draft.joined.hex.size(); ++s)
-      for (const int h : draft.joined.hex[s]) plan.hex_solid[h] = model_.numbers[s];
+    const RefinePlan plan = places_of(draft.joined);
     LocallyRefined refined = clock_.stage("refine", [&] { return refine_locally(model_.whole, draft.joined.whole, plan, fit_options(), monitor_); });
     draft.fitted = refined.fitted;
     fail_inverted(draft.fitted);
@@ -404,11 +401,11 @@ class Conformer {
                  std::vector<std::vector<PaddedMesh>>& choices, std::vector<std::vector<int>>& added) {
     const CadModel& model = model_.solids[s];
     std::vector<int> points;
-    const TetMesh own = tets_of_solid(base.tets, s, &points);
-    const std::vector<Chart> charts = charts_of_solid(base.tets, points, own, base.map, base.between.chart);
-    const SolidGrid& grid = grids.emplace_back(grid_of_solid(hexes, hex_solid, s, own, points, base.map, charts));
+    const TetMesh own = tets_of_solid(base.s.tets, s, &points);
+    const std::vector<Chart> charts = charts_of_solid(base.s.tets, points, own, base.s.map, base.s.between.chart);
+    const SolidGrid& grid = grids.emplace_back(grid_of_solid(hexes, hex_solid, s, own, points, base.s.map, charts));
     AssociateOptions how;
-    how.ignored = given_.left_out;
+    how.ignored = structures_.ignored();
     how.edge_chains = edge_chains(model, own);
     how.size = typical_edge(grid.mesh);
     clock_.stage("pad", [&] {
@@ -460,9 +457,14 @@ class Conformer {
     return result;
   }
 
-  void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
+  static std::vector<FitCandidate> candidates_of(std::vector<PaddedGrids>& choices) {
     std::vector<FitCandidate> candidates;
     for (PaddedGrids& c : choices) candidates.push_back({c.joined.whole.mesh, c.joined.whole.association});
+    return candidates;
+  }
+
+  void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
+    const std::vector<FitCandidate> candidates = candidates_of(choices);
     const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kGood; };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options(), kFits, good, monitor_); });
     draft.fitted = best.report;
@@ -513,7 +515,7 @@ class Conformer {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     r.peak_memory_mb = static_cast<double>(usage.ru_maxrss) / 1024;
-    r.tets = static_cast<int>(std::count(tets_.tet_solid.begin(), tets_.tet_solid.end(), static_cast<int>(s)));
+    r.tets = static_cast<int>(std::count(structures_.tets().tet_solid.begin(), structures_.tets().tet_solid.end(), static_cast<int>(s)));
     r.charts = s == 0 ? draft.charts : 0;
     r.blocks = s == 0 ? draft.blocks : 0;
     r.hexes = static_cast<int>(own.mesh.hexes.size());
@@ -562,23 +564,73 @@ class Conformer {
 
   const ConformalModel& model_;
   const Assembly& assembly_;
-  const MeshOptions options_;
+  const MeshOptions& options_;
+  ConformalStructures& structures_;
+  StageClock& clock_;
   const Monitor& monitor_;
-  StageClock clock_;
   const double size_;
-  GivenLabels given_;
-  TetMesh tets_;
   bool out_of_time_ = false;
 };
 
 }  // namespace
 
-ConformalMesh mesh_conformally(const ConformalModel& model, const Assembly& assembly, const MeshOptions& options, const Monitor& monitor) {
-  try {
-    return Conformer(model, assembly, options, monitor).run();
-  } catch (const StageFailed& failure) {
-    throw by_origin(failure, model);
+ConformalSession::ConformalSession(ConformalModel model, const Assembly& assembly, const MeshOptions& first)
+    : model_(std::move(model)), assembly_(assembly), first_size_(size_of(first, assembly)) {}
+
+ConformalSession::~ConformalSession() = default;
+
+ConformalStructures& ConformalSession::structures(const MeshOptions& options, StageClock& clock, const Monitor& monitor) {
+  if (tets_.tets.empty())
+    tets_ = clock.stage("tet", [&] { return tetrahedralise(model_.whole, model_.solids, tet_options(first_size_, model_.outer.diagonal()), monitor); });
+  const MeshOptions key = structural(options);
+  if (!structures_ || key_ != key) {
+    structures_.reset();
+    structures_ = std::make_unique<ConformalStructures>(model_, tets_, options, first_size_);
+    key_ = key;
   }
+  return *structures_;
+}
+
+template <class Work>
+auto ConformalSession::at_work(const MeshOptions& given, const Monitor& monitor, const Work& work) {
+  try {
+    const MeshOptions options = options_of_unit(given, model_, assembly_);
+    check_demands(options, model_, assembly_, size_of(options, assembly_));
+    StageClock clock(monitor);
+    return work(options, structures(options, clock, monitor), clock);
+  } catch (const StageFailed& failure) {
+    throw by_origin(failure, model_);
+  }
+}
+
+void ConformalSession::prepare(const MeshOptions& given, const Monitor& monitor) {
+  at_work(given, monitor, [&](const MeshOptions&, ConformalStructures& structures, StageClock& clock) {
+    try {
+      structures.structure(0, clock, monitor);
+    } catch (const StageFailed& e) {
+      monitor.log(e.stage() + ": " + e.what());  // told by mesh()
+    }
+  });
+}
+
+ConformalMesh ConformalSession::mesh(const MeshOptions& given, const Monitor& monitor) {
+  return at_work(given, monitor, [&](const MeshOptions& options, ConformalStructures& structures, StageClock& clock) {
+    return Conformer(model_, assembly_, options, structures, clock, monitor).run();
+  });
+}
+
+int ConformalSession::count(const MeshOptions& given, const Monitor& monitor) {
+  return at_work(given, monitor, [&](const MeshOptions& options, ConformalStructures& structures, StageClock& clock) {
+    return Conformer(model_, assembly_, options, structures, clock, monitor).count();
+  });
+}
+
+LabelledPart ConformalSession::labels(const MeshOptions& given, const Monitor& monitor) {
+  return at_work(given, monitor, [&](const MeshOptions&, ConformalStructures& structures, StageClock& clock) {
+    LabelledPart part = labelled_solids(model_, structures.labels(0, clock, monitor), structures.ignored(), monitor);
+    part.stages = clock.records();
+    return part;
+  });
 }
 
 }  // namespace polycube

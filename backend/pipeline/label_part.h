@@ -14,6 +14,9 @@
 
 namespace polycube {
 
+struct ConformalLabels;
+struct ConformalModel;
+
 struct LabelledPart {
   TetMesh tets;
   Labelling labelling;
@@ -35,6 +38,9 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& options, const
 /// The same of a part of one solid or of several that touch: each of these with all of its boundary and points of its own, an interface as each of its sides
 /// sees it. They have no map; `failure` says so. Throws InvalidInput where solids have no common axes: those apart, or all with "separate".
 LabelledPart label_part(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor, Until until = Until::kMap);
+
+/// What is seen of solids with common nodes, by the numbers of the assembly. `left_out`: per joined edge. Its stages are the caller's.
+LabelledPart labelled_solids(const ConformalModel& model, const ConformalLabels& labels, const std::vector<char>& left_out, const Monitor& monitor);
 
 /// From the pose to the part's own place and the user's axes.
 void put_back(const Pose& pose, LabelledPart& part);

@@ -1,16 +1,11 @@
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "cad/conformal.h"
 #include "core/sorted.h"
-#include "label/frame.h"
-#include "pipeline/conform_demands.h"
 #include "pipeline/conform_labels.h"
 #include "pipeline/label_part.h"
-#include "pipeline/solids.h"
-#include "pipeline/stage_clock.h"
-#include "pipeline/structures.h"
+#include "pipeline/part_mesh.h"
 #include "tet/classify.h"
 
 namespace polycube {
@@ -91,41 +86,19 @@ class Seen {
   std::map<Triangle, int> label_at_;
 };
 
-LabelledPart label_solids(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor) {
-  std::vector<int> all(assembly.solids.size());
-  std::iota(all.begin(), all.end(), 1);
-  const ConformalModel model = conform(assembly, all, monitor);
+}  // namespace
+
+LabelledPart labelled_solids(const ConformalModel& model, const ConformalLabels& labels, const std::vector<char>& left_out, const Monitor& monitor) {
   LabelledPart part;
-  StageClock clock(monitor);
-  const TetMesh tets = clock.stage("tet", [&] {
-    return tetrahedralise(model.whole, model.solids, tet_options(effective_size(options, assembly.diagonal()), model.outer.diagonal()), monitor);
-  });
-  LabelOptions how = label_options(options);
-  how.frame_given = true;
-  how.frame = options.frame.empty() ? find_frame(model.whole) : frame_of(options.frame);
-  const GivenLabels given{labels_by_solid(options.labels, model, tets, how.frame), ignored_edges(options, model)};
-  const ConformalLabels labels = clock.stage("label", [&] { return label_conformally(model, tets, how, given, 0, monitor); });
-  part.labelling.frame = how.frame;
-  const Seen seen(model, labels, given.left_out, monitor);
+  part.labelling.frame = labels.labelling.frame;
+  const Seen seen(model, labels, left_out, monitor);
   for (int s = 0; s < static_cast<int>(model.solids.size()); ++s) seen.add(s, part);
   part.failure = StageFailed("deform", "of several solids the labels are shown without a map");
-  part.stages = clock.records();
   return part;
 }
 
-}  // namespace
-
 LabelledPart label_part(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor, Until until) {
-  if (assembly.solids.size() == 1) return label_part(assembly.solids.front(), options, monitor, until);
-  check_by_solid(options, assembly);
-  if (units_of(assembly, options).size() > 1)
-    throw InvalidInput("of " + std::to_string(assembly.solids.size()) +
-                       " solids that are meshed separately each has axes of its own: look at one of them, or at those that touch");
-  try {
-    return label_solids(assembly, options, monitor);
-  } catch (const StageFailed& failure) {
-    throw StageFailed(failure.stage(), std::string(failure.what()) + "; --interfaces separate meshes each solid by itself", failure.entities());
-  }
+  return AssemblySession(assembly, options).labels(options, monitor, until);
 }
 
 }  // namespace polycube

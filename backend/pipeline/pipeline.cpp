@@ -57,20 +57,6 @@ StageFailed with_labels(const StageFailed& failure, const FaceLabels& labels) {
   return StageFailed(failure.stage(), text + " set by hand", failure.entities());
 }
 
-// What structures depend on: all else is at its default. Of sizes only those along axes, which leave the part one frame.
-MeshOptions structural(const MeshOptions& options) {
-  MeshOptions result;
-  result.labels = options.labels;
-  result.frame = options.frame;
-  result.feature_angle = options.feature_angle;
-  result.keep_faces = options.keep_faces;
-  result.fidelity = options.fidelity;
-  result.compactness = options.compactness;
-  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
-  if (by_axis) result.sizes = {{.axis = 0, .size = 1}};
-  return result;
-}
-
 /// Checked options, those of the solid as those of all there is.
 MeshOptions checked(const CadModel& model, const MeshOptions& given) {
   check(given, model.diagonal(), {model.faces(), model.edges(), model.vertices()});

@@ -41,6 +41,19 @@ TetOptions tet_options(double size, double diagonal, double factor) {
 
 double merge_distance(double size, double diagonal) { return 0.02 * std::min(size, diagonal / 30); }
 
+MeshOptions structural(const MeshOptions& options) {
+  MeshOptions result;
+  result.labels = options.labels;
+  result.frame = options.frame;
+  result.feature_angle = options.feature_angle;
+  result.keep_faces = options.keep_faces;
+  result.fidelity = options.fidelity;
+  result.compactness = options.compactness;
+  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0 && s.solid == 0; });
+  if (by_axis) result.sizes = {{.axis = 0, .size = 1}};
+  return result;
+}
+
 LabelOptions label_options(const MeshOptions& options) {
   LabelOptions result;
   result.fidelity = options.fidelity;

@@ -24,6 +24,9 @@ TetOptions tet_options(double size, double diagonal, double factor = 1);
 /// Charts nearer than this become one plane; `size` as for tet_options.
 double merge_distance(double size, double diagonal);
 
+/// What structures depend on: all else is at its default. Of sizes only those along axes, which leave the part one frame.
+MeshOptions structural(const MeshOptions& options);
+
 /// What the user says of the labels, in the pose.
 LabelOptions label_options(const MeshOptions& options);
 

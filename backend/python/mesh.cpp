@@ -130,7 +130,7 @@ void bind_mesh(py::module_& module) {
            "How many hexahedra mesh() would make of these options, without fitting them.");
   module.def("prepare", &prepare, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
-             "A Session of one CAD solid, with tetrahedra, labels, map and blocks made, or of several. Further keyword arguments: options().");
+             "A Session of one CAD solid or several, with tetrahedra, labels, map and blocks made. Further keyword arguments: options().");
   module.def("mesh", &make, py::kw_only(), py::arg("path") = py::none(), py::arg("brep") = py::none(), py::arg("object") = py::none(),
              py::arg("progress") = py::none(), py::arg("log") = py::none(), py::arg("cancel") = py::none(),
              "Hexahedral mesh of a CAD solid, or of several. Further keyword arguments: options().");

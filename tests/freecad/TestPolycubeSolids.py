@@ -273,7 +273,11 @@ class Inputs(solving.SolveTest):
         self.assertTrue(labels.valid)
         self.assertEqual(sorted(labels.face_label), list(range(1, 13)))
         with polycube.prepare(parts, size=2, order=1, min_layers=1) as session:
-            self.assertEqual(sorted(set(session.mesh().hex_solid.tolist())), [1, 2])
+            found = session.mesh()
+            self.assertEqual(sorted(set(found.hex_solid.tolist())), [1, 2])
+            self.assertEqual(session.count(), len(found.hexes))
+            self.assertGreater(session.count(sizes={"Solid2": 1}), len(found.hexes))
+            self.assertEqual(session.labels().face_label, labels.face_label)
 
     def test_a_list_of_one(self):
         one, alone = polycube.mesh([Part.makeBox(4, 4, 4)], size=2), polycube.mesh(Part.makeBox(4, 4, 4), size=2)

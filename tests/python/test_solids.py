@@ -269,14 +269,64 @@ class Looking(FolderTest):
             self.assertEqual(run.returncode, 1)
             self.assertIn("of 2 solids that are meshed separately each has axes of its own: look at one of them", run.stderr)
 
-    def test_a_session(self):
+
+class Sessions(unittest.TestCase):
+    """Of solids with common nodes tetrahedra, labels, map and blocks are kept, of others those of each."""
+
+    MADE_ONCE = {"tet", "deform", "blocks"}
+
+    def same(self, one, other):
+        np.testing.assert_array_equal(one.nodes, other.nodes)
+        np.testing.assert_array_equal(one.hexes, other.hexes)
+        self.assertEqual(one.report["solids"][0]["quality"], other.report["solids"][0]["quality"])
+
+    def made_once(self, found):
+        return self.MADE_ONCE.intersection(stage["name"] for stage in found.report["stages"])
+
+    def test_what_does_not_depend_on_sizes_is_made_once(self):
+        for shape in (pin_in_plate(), Part.Compound([*laminate(1, 1).Solids, Part.makeBox(2, 2, 2, VECTOR(20, 0, 0))])):
+            for interfaces in ("conform", "separate"):
+                session = _polycube.prepare(brep=shape.exportBrepToString(), size=2, interfaces=interfaces)
+                first = session.mesh()
+                self.assertEqual(self.made_once(first), set())
+                self.same(first, mesh(shape, size=2, interfaces=interfaces))
+                for options in ({"size": 1.5}, {"order": 1}, {"hexes": 1000}, {"divisions": {"Solid2": "4.."}}, {"sizes": {"Solid1": 1}}, {"refine": {"Solid2": 1}}, {"coarsest": True}):
+                    found = session.mesh(**options)
+                    self.assertEqual(self.made_once(found), set(), options)
+                    self.assertGreater(found.scaled_jacobian.min(), 0.1)
+                    self.assertEqual(session.count(**options), len(found.hexes), options)
+                self.same(first, session.mesh())
+
+    def test_other_structures_are_made_anew(self):
+        shape = box_on_box()
+        session = _polycube.prepare(brep=shape.exportBrepToString(), size=2)
+        first = session.mesh()
+        for options, made in (({"frame": ((1, 0, 0), (0, 0, 1))}, {"deform", "blocks"}), ({"labels": {"Face11": "-Z"}}, {"deform", "blocks"}), ({"interfaces": "separate"}, self.MADE_ONCE)):
+            found = session.mesh(**options)
+            self.assertEqual(self.made_once(found), made)
+            self.same(found, mesh(shape, size=2, **options))
+        self.same(first, session.mesh())
+
+    def test_refusals_leave_it_as_it_was(self):
         session = _polycube.prepare(brep=box_on_box().exportBrepToString(), size=2)
-        for options in ({"size": 1}, {"size": 2, "interfaces": "separate"}, {"order": 1}):
-            found, alone = session.mesh(**options), mesh(box_on_box(), **{"size": 2, **options})
-            np.testing.assert_array_equal(found.nodes, alone.nodes)
-            np.testing.assert_array_equal(found.hexes, alone.hexes)
         with self.assertRaisesRegex(_polycube.InvalidInput, "Solid3 does not exist"):
             session.mesh(sizes={"Solid3": 1})
+        with self.assertRaisesRegex(_polycube.InvalidInput, "Face11 cannot be"):
+            session.mesh(labels={"Face11": "+Z"})
+        with self.assertRaisesRegex(_polycube.StageFailed, "nowhere opposite each other"):
+            session.count(divisions={"Face1-Face3": 4})
+        with self.assertRaises(_polycube.Cancelled):
+            session.mesh(frame=((0, 1, 0), (1, 0, 0)), cancel=lambda: True)
+        self.same(session.mesh(), mesh(box_on_box(), size=2))
+
+    def test_solids_without_a_common_mesh(self):
+        """What fails is told by each mesh; by themselves they have one."""
+        boxes = [Part.makeBox(2, 2, 2), Part.makeBox(2, 2, 2, VECTOR(2, 0, 0)), Part.makeBox(2, 2, 2, VECTOR(4, 2, 0)), Part.makeBox(6, 4, 2, VECTOR(0, 0, 2))]
+        session = _polycube.prepare(brep=Part.Compound(boxes).exportBrepToString(), size=1)
+        for _ in range(2):
+            with self.assertRaisesRegex(_polycube.StageFailed, "Solid1, Solid2, Solid3, Solid4: .*--interfaces separate"):
+                session.mesh()
+        self.assertEqual(len(session.mesh(interfaces="separate").report["solids"]), 4)
 
 
 class Refusals(FolderTest):

@@ -71,7 +71,7 @@ def prepare(shape_or_object, **options):
     """A Session on one solid or several, for meshes that differ in counts, sizes, divisions or order: `session.mesh(size=3)` as mesh(), several times.
 
     The first mesh makes tetrahedra, labels, map and blocks, those after it go on from there; so do session.labels() and session.count(), the number of cells
-    that a mesh would have (of several solids each mesh is made anew, and none is counted). The session is a process of its own; session.close(), or a with block, ends it.
+    that a mesh would have. The session is a process of its own; session.close(), or a with block, ends it.
 
     >>> with polycube.prepare(part, order=1) as session:
     ...     session.count(size=10), len(session.mesh(size=20).hexes)

@@ -301,6 +301,12 @@ class Associator {
               [](const Candidate& a, const Candidate& b) { return std::tie(a.cost, a.vertex, a.node) < std::tie(b.cost, b.vertex, b.node); });
     vertex_node_.assign(model_.vertex_count() + 1, -1);
     owner_.assign(b_.points.size(), 0);
+    for (const auto& [e, nodes] : options_.given_paths) {
+      for (const auto& [v, n] : {std::pair(model_.edge(e).vertices[0], nodes.front()), std::pair(model_.edge(e).vertices[1], nodes.back())}) {
+        vertex_node_[v] = n;
+        owner_[n] = -v;
+      }
+    }
     for (const Candidate& c : candidates) {
       if (vertex_node_[c.vertex] >= 0 || owner_[c.node] != 0) continue;
       vertex_node_[c.vertex] = c.node;
@@ -341,6 +347,7 @@ class Associator {
       order.push_back(e);
     }
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      if (options_.given_paths.contains(a) != options_.given_paths.contains(b)) return options_.given_paths.contains(a);
       if (failures_[a] != failures_[b]) return failures_[a] > failures_[b];
       if (inside[a] != inside[b]) return inside[a] < inside[b];
       return model_.edge(a).length > model_.edge(b).length * (1 + 1e-9);
@@ -371,6 +378,15 @@ class Associator {
     double sum = 0;
     std::vector<int> taken;
     bool ok = true;
+    if (const auto given = options_.given_paths.find(e); given != options_.given_paths.end()) {
+      path.nodes = given->second;
+      stops.clear();
+      for (std::size_t i = 1; i + 1 < path.nodes.size(); ++i) {
+        ok = ok && owner_[path.nodes[i]] == 0;
+        if (owner_[path.nodes[i]] == 0) taken.push_back(path.nodes[i]);
+      }
+      for (const int n : taken) owner_[n] = e;
+    }
     for (std::size_t i = 0; i + 1 < stops.size() && ok; ++i) {
       std::vector<int> piece(chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].first), chain.begin() + static_cast<std::ptrdiff_t>(pieces[i].second) + 1);
       const std::vector<int> nodes = shortest(piece, stops[i], stops[i + 1], e, i == 0, i + 2 == stops.size(), sum);

@@ -1,6 +1,7 @@
 // Association before geometry: which mesh node stands on which CAD vertex, edge, face.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "cad/cad.h"
@@ -22,6 +23,8 @@ struct AssociateOptions {
   std::vector<std::vector<int>> edge_chains;  ///< per CAD edge number (entry 0 unused): tet mesh points along it, empty to leave the edge out
   double size = 0;                            ///< typical edge length, mm
   std::vector<char> ignored;                  ///< per CAD edge number: to be left out, and no loss; may be empty
+  /// CAD edges that have their nodes already, from the first to the second vertex: on them a solid beside this one has been associated.
+  std::map<int, std::vector<int>> given_paths{};
 };
 
 /// Chooses a node for every CAD vertex and a path of mesh edges for every CAD edge with a chain, such that the quads fall into one region per

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -63,6 +65,17 @@ struct Base {
   std::vector<DistanceConstraint> walls{};
   DemandPlaces places{};
 };
+
+/// Per joined edge at an interface: nodes of the grid that stand for it, from its first to its second vertex.
+using InterfacePaths = std::map<int, std::vector<int>>;
+
+/// A solid's part of the grid, and ways to pad it.
+struct SolidChoice {
+  SolidGrid grid;
+  std::vector<PaddedMesh> padded;
+  std::vector<int> added_hexes;
+};
+using SolidChoices = std::vector<SolidChoice>;
 
 struct Draft {
   JoinedGrids joined;
@@ -321,11 +334,44 @@ class Conformer {
     draft.blocks = static_cast<int>(base.s.blocks.blocks.size());
     std::vector<int> hex_solid;
     for (const int b : hexes.hex_block) hex_solid.push_back(base.s.block_solid[b]);
-    std::vector<std::vector<PaddedMesh>> choices;
-    std::vector<std::vector<int>> added;
-    for (int s = 0; s < static_cast<int>(model_.solids.size()); ++s) pad_solid(s, base, hexes, hex_solid, result.grids, choices, added);
-    result.choices = paddings(result.grids, choices, added, hexes.mesh.points.size());
+    try {
+      pad_solids(base, hex_solid, result);
+    } catch (const StageFailed& e) {
+      if (e.stage() != "interfaces") throw;
+      monitor_.log("conform: " + std::string(e.what()) + ": once more, each on the CAD edges of those before it, and of those after it");
+      pad_in_order(base, hex_solid, result);
+    }
     return result;
+  }
+
+  /// Each solid finds the ways of CAD edges on the grid for itself.
+  void pad_solids(const Base& base, const std::vector<int>& hex_solid, Laid& made) {
+    SolidChoices found(model_.solids.size());
+    for (std::size_t s = 0; s < found.size(); ++s) found[s] = pad_solid(static_cast<int>(s), base, made.hexes, hex_solid, nullptr);
+    made.choices = paddings(found, made.hexes.mesh.points.size());
+    for (SolidChoice& f : found) made.grids.push_back(std::move(f.grid));
+  }
+
+  /// Each solid takes those where interfaces end from the solids done before it, from the first to the last one and the other way round.
+  void pad_in_order(const Base& base, const std::vector<int>& hex_solid, Laid& made) {
+    std::optional<StageFailed> failure;
+    for (const bool forward : {true, false}) {
+      SolidChoices found(model_.solids.size());
+      InterfacePaths paths;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const std::size_t s = forward ? i : found.size() - 1 - i;
+        found[s] = pad_solid(static_cast<int>(s), base, made.hexes, hex_solid, &paths);
+      }
+      try {
+        std::vector<PaddedGrids> more = paddings(found, made.hexes.mesh.points.size());
+        std::move(more.begin(), more.end(), std::back_inserter(made.choices));
+      } catch (const StageFailed& e) {
+        failure = e;
+      }
+      made.grids.clear();
+      for (SolidChoice& f : found) made.grids.push_back(std::move(f.grid));
+    }
+    if (made.choices.empty()) throw StageFailed(*failure);
   }
 
   Draft gridded(const Base& base, const Divisions& divisions, double share) {
@@ -397,22 +443,49 @@ class Conformer {
     return faces;
   }
 
-  void pad_solid(int s, const Base& base, const HexComplex& hexes, const std::vector<int>& hex_solid, std::vector<SolidGrid>& grids,
-                 std::vector<std::vector<PaddedMesh>>& choices, std::vector<std::vector<int>>& added) {
+  /// Those of a solid's own nodes; some may not be among them.
+  static std::map<int, std::vector<int>> paths_on(const SolidGrid& grid, const CadModel& model, const InterfacePaths& paths) {
+    std::map<int, int> own;
+    for (std::size_t n = 0; n < grid.node.size(); ++n) own[grid.node[n]] = static_cast<int>(n);
+    std::map<int, std::vector<int>> result;
+    for (const int e : model.edges()) {
+      const auto path = paths.find(e);
+      if (path == paths.end() || !std::all_of(path->second.begin(), path->second.end(), [&](int n) { return own.contains(n); })) continue;
+      for (const int n : path->second) result[e].push_back(own.at(n));
+    }
+    return result;
+  }
+
+  void add_paths(const SolidGrid& grid, const Association& association, InterfacePaths& paths) const {
+    InterfacePaths found;
+    for (std::size_t i = 0; i < association.segments.size(); ++i) {
+      const int e = association.segment_edge[i];
+      if (!structures_.interface_edges()[static_cast<std::size_t>(e)]) continue;
+      std::vector<int>& path = found[e];
+      if (path.empty()) path.push_back(grid.node[association.segments[i][0]]);
+      path.push_back(grid.node[association.segments[i][1]]);
+    }
+    paths.merge(found);
+  }
+
+  SolidChoice pad_solid(int s, const Base& base, const HexComplex& hexes, const std::vector<int>& hex_solid, InterfacePaths* paths) {
+    SolidChoice result;
     const CadModel& model = model_.solids[s];
     std::vector<int> points;
     const TetMesh own = tets_of_solid(base.s.tets, s, &points);
     const std::vector<Chart> charts = charts_of_solid(base.s.tets, points, own, base.s.map, base.s.between.chart);
-    const SolidGrid& grid = grids.emplace_back(grid_of_solid(hexes, hex_solid, s, own, points, base.s.map, charts));
+    const SolidGrid& grid = result.grid = grid_of_solid(hexes, hex_solid, s, own, points, base.s.map, charts);
     AssociateOptions how;
     how.ignored = structures_.ignored();
     how.edge_chains = edge_chains(model, own);
     how.size = typical_edge(grid.mesh);
+    if (paths) how.given_paths = paths_on(grid, model, *paths);
     clock_.stage("pad", [&] {
       const Association association = associate(model, own, charts, {grid.mesh.points, grid.quads, grid.quad_chart, grid.quad_triangle}, how, monitor_);
+      if (paths) add_paths(grid, association, *paths);
       std::vector<PadReport> reports;
-      std::vector<PaddedMesh> kept;
-      std::vector<int> hexes_added;
+      std::vector<PaddedMesh>& kept = result.padded;
+      std::vector<int>& hexes_added = result.added_hexes;
       std::vector<PaddedMesh> all = pad_choices(model, grid.mesh, association, monitor_, &reports, interfaces_of(s), thread_count(options_.threads));
       for (std::size_t i = 0; i < all.size(); ++i) {
         if (!keeps_interfaces(model_, association, all[i].association)) continue;
@@ -424,24 +497,26 @@ class Conformer {
         kept.push_back({grid.mesh, association});
         hexes_added.push_back(0);
       }
-      choices.push_back(std::move(kept));
-      added.push_back(std::move(hexes_added));
     });
+    return result;
   }
 
   /// The best of all solids, then the second best of those that have one, and so on; the last is without layers. Then layers through several solids on top of
   /// the first, or of the last where that has none.
-  std::vector<PaddedGrids> paddings(const std::vector<SolidGrid>& grids, const std::vector<std::vector<PaddedMesh>>& choices,
-                                    const std::vector<std::vector<int>>& added, std::size_t nodes) {
+  std::vector<PaddedGrids> paddings(const SolidChoices& choices, std::size_t nodes) {
+    std::vector<SolidGrid> grids;
     std::size_t most = 1;
-    for (const auto& c : choices) most = std::max(most, c.size());
+    for (const SolidChoice& c : choices) {
+      grids.push_back(c.grid);
+      most = std::max(most, c.padded.size());
+    }
     std::vector<PaddedGrids> result;
     for (std::size_t i = 0; i < most; ++i) {
       PaddedGrids& chosen = result.emplace_back();
       for (std::size_t s = 0; s < choices.size(); ++s) {
-        const std::size_t own = std::min(i, choices[s].size() - 1);
-        chosen.solids.push_back(choices[s][own]);
-        chosen.added_hexes.push_back(added[s][own]);
+        const std::size_t own = std::min(i, choices[s].padded.size() - 1);
+        chosen.solids.push_back(choices[s].padded[own]);
+        chosen.added_hexes.push_back(choices[s].added_hexes[own]);
       }
       chosen.joined = join_grids(model_, grids, chosen.solids, nodes);
     }

@@ -204,6 +204,15 @@ class Conform(ConformTest):
         self.assertGreater(found.scaled_jacobian.min(), 0.6)
         self.assertTrue(all(solid["counts"]["padded_hexes"] > 0 for solid in found.report["solids"]))
 
+    def test_ring_in_a_groove(self):
+        """In a plate's face, flush, where each solid would take another way for the circles between them; and in a shaft's groove, sticking out."""
+        ring = Part.makeCylinder(6, 2, VECTOR(10, 10, 4)).cut(Part.makeCylinder(4, 2, VECTOR(10, 10, 4)))
+        self.check(Part.Compound([Part.makeBox(20, 20, 6).cut(ring), ring]), size=1.5, order=1, volume=0.1)
+        ring = Part.makeCylinder(9, 3, VECTOR(0, 0, 8)).cut(Part.makeCylinder(5, 3, VECTOR(0, 0, 8)))
+        self.check(Part.Compound([Part.makeCylinder(8, 20).cut(ring), ring]), size=1.5, order=1, volume=0.1)
+        ring = Part.makeTorus(7, 1.5, VECTOR(0, 0, 9.5))
+        self.check(Part.Compound([Part.makeCylinder(7, 20).cut(ring), ring]), size=1.5, order=1, volume=0.1)
+
     def test_five_in_a_row(self):
         self.check(Part.Compound([Part.makeBox(4, 5, 5, VECTOR(4 * i, 0, 0)) for i in range(5)]), size=2)
 
@@ -339,6 +348,18 @@ class Refusals(FolderTest):
             self.assertIn(text, message)
         self.assertIn("Edge", message.split("(")[-1])
         self.assertEqual(len(set(mesh(Part.Compound(boxes), size=1, interfaces="separate").hex_solid.tolist())), 4)
+
+    def test_a_slot_that_a_ring_fills(self):
+        """What is wrong with the common mesh is told with the faces, and separate has one."""
+        ring = Part.makeCylinder(10, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(6, 2, VECTOR(0, 0, 3)))
+        shape = Part.Compound([Part.makeCylinder(10, 8).cut(ring), ring])
+        try:
+            mesh(shape, size=2)
+        except _polycube.StageFailed as failure:
+            self.assertIn("Solid1, Solid2: ", str(failure))
+            self.assertIn("cells stay inverted; --interfaces separate meshes each solid by itself", str(failure))
+            self.assertTrue(failure.entities)
+        self.assertEqual(len(mesh(shape, size=2, interfaces="separate").report["solids"]), 2)
 
     def test_what_touches_itself_in_a_point(self):
         """A cylinder tangent to the edge of the block below it; a ring tangent to the bolt holes of the plates on both sides."""

@@ -113,5 +113,33 @@ TEST(Associate, VerticesInsideAChartLeaveItsBoundaryToOthers) {
   EXPECT_EQ(corners, 4);
 }
 
+// A side of the square goes round by the nodes that a solid on the other side of it has there.
+TEST(Associate, TakesPathsThatAreGiven) {
+  Drawn part;
+  const HexBoundary boundary{part.grid.mesh.points, part.grid.association.quads, part.quad_chart, part.quad_triangle};
+  const auto node_at = [&](double x, double y) {
+    const auto& points = part.grid.mesh.points;
+    return static_cast<int>(std::find_if(points.begin(), points.end(), [&](const Vec3& p) { return (p - Vec3(x, y, 4)).norm() < 1e-9; }) - points.begin());
+  };
+  int edge = 0;
+  for (int e = 1; e <= part.model.edge_count(); ++e) {
+    const auto& [a, b] = part.model.edge(e).vertices;
+    if (std::abs(part.model.vertex(a)[0] - 2.4) < 1e-9 && std::abs(part.model.vertex(b)[0] - 2.4) < 1e-9) edge = e;
+  }
+  ASSERT_GT(edge, 0);
+  std::vector<int> path{node_at(2, 1), node_at(3, 1), node_at(3, 2), node_at(2, 2)};
+  if (part.model.vertex(part.model.edge(edge).vertices[0])[1] > 1) std::reverse(path.begin(), path.end());
+  part.options.given_paths[edge] = path;
+  const Association found = associate(part.model, part.tets, part.charts, boundary, part.options, Monitor{});
+  EXPECT_TRUE(found.lost_edges.empty());
+  std::vector<int> nodes{path.front()};
+  for (std::size_t s = 0; s < found.segments.size(); ++s) {
+    if (found.segment_edge[s] == edge) nodes.push_back(found.segments[s][1]);
+  }
+  EXPECT_EQ(nodes, path);
+  EXPECT_EQ(found.point_cad[path.front()], (CadRef{0, part.model.edge(edge).vertices[0]}));
+  EXPECT_EQ(found.point_cad[path.back()], (CadRef{0, part.model.edge(edge).vertices[1]}));
+}
+
 }  // namespace
 }  // namespace polycube

@@ -152,6 +152,60 @@ class Solids(BarsTest):
         self.assertEqual(self.group(obj.FemMesh, "Aluminium_Volumes"), self.group(obj.FemMesh, "Solid2"))
 
 
+class Assemblies(BarsTest):
+    """What FreeCAD has of several solids: fragments, compounds of solids, bodies, links, containers in containers."""
+
+    def check(self, part, count, touching, **options):
+        """A mesh with a group for each solid, as large as it is, and for each of both sides where two touch."""
+        obj = polycube.create_fem_mesh(part, size=5, order=1, min_layers=1, **options)
+        self.assertEqual(obj.MeshState, "Up to date")
+        mesh = obj.FemMesh
+        names = [mesh.getGroupName(group) for group in mesh.Groups]
+        self.assertEqual(sorted(name for name in names if name.startswith("Solid") and "_" not in name), ["Solid{}".format(n) for n in range(1, count + 1)])
+        self.assertEqual(sum(name.count("Solid") == 2 for name in names), 2 * touching)
+        return obj
+
+    def test_fragments(self):
+        """As BooleanFragments leaves them, by its kinds: solids that share faces, in a compound or a CompSolid."""
+        try:
+            from BOPTools import SplitFeatures
+        except ImportError:
+            self.skipTest("this FreeCAD has no BooleanFragments")
+        for mode in ("Standard", "CompSolid"):
+            parts = self.bars()
+            fragments = SplitFeatures.makeBooleanFragments(name="Fragments")
+            fragments.Objects, fragments.Mode = parts, mode
+            self.document.recompute()
+            self.assertEqual(len(fragments.Shape.Faces), 11)
+            self.check(fragments, 2, 1)
+            self.assertEqual(self.check(fragments, 2, 1, interfaces="separate").NodeCount, 2 * 5 * 9)
+
+    def test_bodies_and_links(self):
+        self.document = FreeCAD.newDocument()
+        body = self.document.addObject("PartDesign::Body", "Body")
+        box = self.document.addObject("PartDesign::AdditiveBox", "Box")
+        body.addObject(box)
+        box.Length, box.Width, box.Height = 20, 10, 10
+        link = self.document.addObject("App::Link", "Link")
+        link.LinkedObject, link.Placement.Base = body, Vector(20, 0, 0)
+        self.document.recompute()
+        obj = self.check([body, link], 2, 1)
+        self.assertAlmostEqual(obj.FemMesh.BoundBox.XMax, 40)
+
+    def test_containers_in_containers(self):
+        parts = self.bars()
+        inner, outer = (self.document.addObject("App::Part", name) for name in ("Inner", "Outer"))
+        inner.addObject(parts[1])
+        inner.Placement.Base = Vector(0, 0, 10)
+        outer.addObjects([parts[0], inner])
+        outer.Placement = FreeCAD.Placement(Vector(0, 0, 50), FreeCAD.Rotation(Vector(0, 0, 1), 90))
+        parts[1].Placement.Base = Vector(0, 0, 0)
+        self.document.recompute()
+        obj = self.check(outer, 2, 1)
+        self.assertAlmostEqual(obj.FemMesh.BoundBox.ZMax, 70)
+        self.assertAlmostEqual(obj.FemMesh.BoundBox.XMin, -10)
+
+
 class Interfaces(BarsTest):
     """FreeCAD's contact and tie between faces of two solids with nodes of their own, as CalculiX sees them: no Poisson's ratio, cells of other sizes on both sides."""
 

@@ -49,6 +49,30 @@ class Panel(GuiTest):
         self.assertEqual(self.document.Objects, [self.box])
         self.assertEqual(list(self.document.UndoNames), [])
 
+    def test_several_selected_objects(self):
+        """They become a compound, in which each has its cells, with common nodes where they touch; the preview shows the labels of all."""
+        pin = self.document.addObject("Part::Cylinder", "Pin")
+        pin.Radius, pin.Height, pin.Placement.Base = 8, 15, FreeCAD.Vector(30, 20, 20)
+        self.document.recompute()
+        FreeCADGui.Selection.clearSelection()
+        for part in (self.box, pin):
+            FreeCADGui.Selection.addSelection(part)
+        self.assertTrue(commands.MeshFromShape().IsActive())
+        panel = self.caught(lambda: FreeCADGui.runCommand(commands.MeshFromShape.Name))
+        self.assertEqual(panel.part.Links, [self.box, pin])
+        panel.field("size").value = 8.0
+        panel.axes.preview.setChecked(True)
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertTrue(panel.axes.shown.valid)
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: not panel.process))
+        self.assertIsNotNone(panel.obj, panel.form.log.toPlainText())
+        picture("several-selected")
+        groups = [panel.obj.FemMesh.getGroupName(group) for group in panel.obj.FemMesh.Groups]
+        for name in ("Solid1", "Solid2", "Solid1_Solid2", "Solid2_Solid1"):
+            self.assertIn(name, groups)
+        self.press("Ok")
+
     def test_apply_meshes_in_one_undo_step(self):
         analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
         FemGui.setActiveAnalysis(analysis)

@@ -4,7 +4,7 @@ import json
 import unittest
 
 import numpy as np
-from support import VECTOR, FolderTest, Part, needs_calculix
+from support import VECTOR, FolderTest, FreeCAD, Part, needs_calculix
 from test_decks import STEEL, DeckTest, face, plane, round_side
 
 import _polycube
@@ -88,6 +88,24 @@ class Separate(FolderTest):
         counts = np.bincount(mesh(box_on_box(), hexes=2000, interfaces="separate").hex_solid)[1:]
         self.assertLess(abs(counts.sum() - 2000), 600)
         self.assertAlmostEqual(counts[0] / counts[1], 300 / 32, delta=3)
+
+    def test_step_of_several_products(self):
+        """Each solid by the name of its product, with common nodes or its own."""
+        import Import
+
+        document = FreeCAD.newDocument()
+        self.addCleanup(FreeCAD.closeDocument, document.Name)
+        for label, solid in zip(("Base plate", "Block"), box_on_box().Solids):
+            feature = document.addObject("Part::Feature", "Part")
+            feature.Label, feature.Shape = label, solid
+        Import.export(document.Objects, self.path("two.step"))
+        for interfaces in ("conform", "separate"):
+            run = self.run_program("mesh", self.path("two.step"), "-o", self.path("out.inp"), "--size", "1", "--interfaces", interfaces, "--report", self.path("report.json"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            with open(self.path("report.json")) as file:
+                report = json.load(file)
+            self.assertEqual([(solid["name"], solid["label"]) for solid in report["solids"]], [("Solid1", "Base plate"), ("Solid2", "Block")])
+            self.assertEqual([solid["counts"]["hexes"] for solid in report["solids"]], [300, 32])
 
     def test_files(self):
         part = self.save(box_on_box())
@@ -215,6 +233,22 @@ class Conform(ConformTest):
 
     def test_five_in_a_row(self):
         self.check(Part.Compound([Part.makeBox(4, 5, 5, VECTOR(4 * i, 0, 0)) for i in range(5)]), size=2)
+
+    def test_coated_bracket(self):
+        angle = Part.makeBox(16, 8, 3).fuse(Part.makeBox(3, 8, 12)).removeSplitter()
+        coat = Part.makeBox(13, 8, 1, VECTOR(3, 0, 3)).fuse(Part.makeBox(1, 8, 9, VECTOR(3, 0, 3))).removeSplitter()
+        self.check(Part.Compound([angle, coat]), size=2, order=1, min_layers=1)
+
+    def test_bolted_flanges_with_a_gasket(self):
+        def plate(z, thickness):
+            ring = Part.makeCylinder(26, thickness, VECTOR(0, 0, z)).cut(Part.makeCylinder(10, thickness, VECTOR(0, 0, z)))
+            for x in (-18, 18):
+                ring = ring.cut(Part.makeCylinder(3, thickness, VECTOR(x, 0, z)))
+            return ring
+
+        bolts = [Part.makeCylinder(3, 14, VECTOR(x, 0, 0)) for x in (-18, 18)]
+        found = self.check(Part.Compound([plate(0, 6), plate(6, 2), plate(8, 6), *bolts]), size=4, order=1, min_layers=1, volume=0.1)
+        self.assertEqual(len(found.report["interfaces"]), 2 + 2 * 3)
 
     def test_layers_and_sizes_by_solid(self):
         found = self.check(laminate(1, 1), size=1, divisions={"Solid2": "3.."}, order=1, min_layers=1, growth=1)

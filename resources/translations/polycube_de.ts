@@ -192,8 +192,8 @@
       <translation>Neu</translation>
     </message>
     <message>
-      <source>At the faces or edges that are selected in the 3D view</source>
-      <translation>An den Flächen oder Kanten, die in der 3D-Ansicht gewählt sind</translation>
+      <source>At the faces, edges or vertices that are selected in the 3D view, or solids in the tree</source>
+      <translation>An den Flächen, Kanten oder Ecken, die in der 3D-Ansicht gewählt sind, oder Körpern im Baum</translation>
     </message>
     <message>
       <source>Remove</source>
@@ -208,8 +208,8 @@
       <translation>Macht Objekte aus dem Text darunter, wie ihn ältere Dokumente haben</translation>
     </message>
     <message>
-      <source>Select faces or edges of the part in the 3D view, then press Add.</source>
-      <translation>Wählen Sie Flächen oder Kanten des Bauteils in der 3D-Ansicht, dann Neu.</translation>
+      <source>Select faces, edges or vertices of the part in the 3D view, then press Add.</source>
+      <translation>Wählen Sie Flächen, Kanten oder Ecken des Bauteils in der 3D-Ansicht, dann Neu.</translation>
     </message>
     <message>
       <source>Refinement</source>
@@ -228,8 +228,12 @@
       <translation>Lokale Größe</translation>
     </message>
     <message>
-      <source>Another edge length at faces</source>
-      <translation>Eine andere Kantenlänge an Flächen</translation>
+      <source>Another edge length at faces, at edges at most, or in solids</source>
+      <translation>Eine andere Kantenlänge an Flächen, an Kanten höchstens, oder in Körpern</translation>
+    </message>
+    <message>
+      <source>Elements at faces, edges or vertices, and no others, divided by three</source>
+      <translation>Elemente an Flächen, Kanten oder Ecken, und keine anderen, werden gedrittelt</translation>
     </message>
     <message>
       <source>Divisions</source>

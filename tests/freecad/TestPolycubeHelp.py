@@ -76,5 +76,5 @@ class WrongNames(solve_tests.SolveTest):
         for wrong, right in (("layer", "layers"), ("divison", "divisions"), ("axes", "axis")):
             with self.assertRaisesRegex(polycube.InvalidInput, "did you mean '{}'".format(right)):
                 polycube.refine(mesh, wrong, ["Face1"])
-        with self.assertRaisesRegex(polycube.InvalidInput, "there are size, divisions"):
+        with self.assertRaisesRegex(polycube.InvalidInput, "there are size, levels"):
             polycube.refine(mesh, "colour", ["Face1"])

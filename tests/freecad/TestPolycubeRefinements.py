@@ -61,6 +61,34 @@ class Demands(RefinementTest):
         polycube.update_fem_mesh(self.mesh)
         self.assertGreater(self.mesh.Hexahedra, before)
 
+    def test_local_refinement(self):
+        """Of the elements at a place, and no others; the bounds hold in a document that is opened again too."""
+        before = self.mesh.Hexahedra
+        quads = self.group("Face1", "Face")
+        obj = polycube.refine(self.mesh, "levels", ["Face1", "Vertex1"], 1)
+        self.assertEqual(refinements.with_refinements({"refine": "Edge3=1"}, self.mesh), {"refine": "Edge3=1,Face1=1,Vertex1=1"})
+        polycube.update_fem_mesh(self.mesh)
+        self.assertEqual(self.group("Face1", "Face"), 9 * quads)
+        self.assertGreater(self.mesh.Hexahedra, before)
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.document.saveAs(os.path.join(folder, "refined.FCStd"))
+        name = obj.Name
+        FreeCAD.closeDocument(self.document.Name)
+        self.document = FreeCAD.openDocument(os.path.join(folder, "refined.FCStd"))
+        obj = self.document.getObject(name)
+        self.assertEqual((obj.Levels, obj.Fault, self.document.PolycubeMesh.MeshState), (1, "", objects.CURRENT))
+        obj.Levels = 99
+        self.assertEqual(obj.Levels, 6)
+
+    def test_sizes_of_edges_and_solids(self):
+        """Along an edge as many elements as its length asks for, at least."""
+        edge = self.named("Edge", lambda edge: edge.BoundBox.XLength > 59)
+        obj = polycube.refine(self.mesh, "size", [edge, "Face1", "Solid1"], 6)
+        self.assertEqual(refinements.with_refinements({}, self.mesh), {"sizes": "Face1=6.0,Solid1=6.0", "divisions": edge + "=10.."})
+        obj.References = [(self.plate, [edge])]
+        polycube.update_fem_mesh(self.mesh)
+        self.assertGreaterEqual(self.group(edge, "Edge"), 10)
+
     def test_as_options(self):
         asked = [("size", ["Face1", "Face2"], 1.5), ("keep", ["Face3"], None), ("axis", ["Face1"], "-X"), ("layers", ["Face1", "Face2"], "3.."), ("bias", ["Edge2"], 3)]
         made = [polycube.refine(self.mesh, *one) for one in asked]
@@ -91,8 +119,14 @@ class Faults(RefinementTest):
         objects_before = self.document.Objects
         for kind, places, value, message in (
             ("size", ["Face99"], 1, "Plate has no Face99 any more"),
-            ("size", ["Edge1"], 1, "Edge1 is no face"),
-            ("size", [], 1, "no face is chosen"),
+            ("size", ["Vertex1"], 1, "Vertex1 is no face, edge or solid"),
+            ("keep", ["Edge1"], None, "Edge1 is no face"),
+            ("levels", ["Face1"], 0, "'0' is not a whole number from 1 to 6"),
+            ("levels", ["Face1"], 7, "not a whole number"),
+            ("levels", ["Face1"], 1.5, "not a whole number"),
+            ("levels", ["Face1"], "many", "not a whole number"),
+            ("levels", ["Vertex99"], 1, "Plate has no Vertex99 any more"),
+            ("size", [], 1, "no face, edge or solid is chosen"),
             ("size", ["Face1"], "5 kg", "not a length"),
             ("size", ["Face1"], "wide", "not a length"),
             ("size", ["Face1"], -1, "greater than 0"),

@@ -5,8 +5,8 @@ from unittest import mock
 import FreeCAD
 import FreeCADGui
 import gui_panel
-from gui_support import picture, process_events
-from PySide import QtCore
+from gui_support import mouse, picture, process_events
+from PySide import QtCore, QtGui
 
 from freecad.polycube import macro, objects, option_table, refinements
 
@@ -51,11 +51,11 @@ class FromTheSelection(RefineTest):
         panel = self.open_panel(self.box)
         for names, kinds in (
             ((), set()),
-            (("Face1",), {"size", "bore", "keep", "axis"}),
-            (("Face1", "Face2"), {"size", "bore", "keep", "axis", "layers"}),
-            (("Edge1", "Edge2"), {"divisions", "bias"}),
-            (("Face1", "Edge2"), {"size", "bore", "keep", "axis", "divisions", "bias"}),
-            (("Vertex1",), set()),
+            (("Face1",), {"size", "levels", "bore", "keep", "axis"}),
+            (("Face1", "Face2"), {"size", "levels", "bore", "keep", "axis", "layers"}),
+            (("Edge1", "Edge2"), {"size", "levels", "divisions", "bias"}),
+            (("Face1", "Edge2"), {"size", "levels", "bore", "keep", "axis", "divisions", "bias"}),
+            (("Vertex1",), {"levels"}),
         ):
             with self.subTest(names=names):
                 self.choose(*names)
@@ -98,6 +98,57 @@ class FromTheSelection(RefineTest):
         self.press("Ok")
         self.assertIn("Refinement", self.document.UndoNames)
 
+    def edit(self, table, row):
+        """A double click on a value; the editor that it opens."""
+        mouse(table.viewport(), table.visualItemRect(table.item(row, 2)).center(), double=True)
+        process_events(0.1)
+        return next(widget for widget in table.viewport().findChildren(QtGui.QWidget) if widget.isVisible() and widget.parentWidget() is table.viewport())
+
+    def test_local_refinement(self):
+        """At what is clicked, its levels set within their bounds; an axis is chosen of those that there are."""
+        panel = self.meshed()
+        before = panel.obj.Hexahedra
+        self.choose("Vertex1", "Edge1")
+        levels = self.add(panel, "levels")
+        self.assertEqual((refinements.places_of(levels), levels.Levels), (["Vertex1", "Edge1"], 1))
+        editor = self.edit(panel.refine.table, 0)
+        self.assertEqual((editor.minimum(), editor.maximum(), editor.value()), (1, 6, 1))
+        editor.setValue(2)
+        picture("levels")
+        self.finish(editor)
+        self.assertEqual(levels.Levels, 2)
+        self.assertIn("value='2'", self.lines[-1])
+        self.choose("Face1")
+        axis = self.add(panel, "axis")
+        editor = self.edit(panel.refine.table, 1)
+        self.assertEqual([editor.itemText(row) for row in range(editor.count())], ["+X", "-X", "+Y", "-Y", "+Z", "-Z"])
+        editor.setCurrentIndex(1)
+        self.finish(editor)
+        self.assertEqual(axis.Axis, "-X")
+        self.apply(panel)
+        self.assertEqual(panel.obj.MeshState, objects.CURRENT, panel.form.log.toPlainText())
+        self.assertGreater(panel.obj.Hexahedra, before)
+        self.press("Ok")
+
+    @staticmethod
+    def finish(editor):
+        for kind in (QtCore.QEvent.KeyPress, QtCore.QEvent.KeyRelease):
+            QtGui.QApplication.sendEvent(editor, QtGui.QKeyEvent(kind, QtCore.Qt.Key_Return, QtCore.Qt.NoModifier))
+        process_events(0.1)
+
+    def test_of_several_solids_one_is_chosen_in_the_tree(self):
+        other = self.document.addObject("Part::Box", "Beside")
+        other.Placement.Base.x = 60
+        FreeCADGui.Selection.clearSelection()
+        both = self.document.addObject("Part::Compound", "Both")
+        both.Links = [self.box, other]
+        self.document.recompute()
+        panel = self.open_panel(both)
+        FreeCADGui.Selection.clearSelection()
+        FreeCADGui.Selection.addSelection(other)
+        self.assertEqual(panel.refine.selected_places(), ["Solid2"])
+        self.press("Cancel")
+
     def test_the_tree_has_them_below_the_mesh(self):
         panel = self.meshed()
         self.choose("Face1")
@@ -138,6 +189,7 @@ class AsText(RefineTest):
         panel = self.meshed()
         panel.field("sizes").value = "Face3=0.5,X=2"
         panel.field("divisions").value = "Edge4=6,Face1-Face2=3.."
+        panel.field("refine").value = "Face6=2,Edge3=1,Vertex2=1"
         panel.field("keep_faces").value = "Face5"
         panel.changed()
         asked = panel._parameters()

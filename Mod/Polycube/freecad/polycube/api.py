@@ -212,7 +212,8 @@ def set_options(obj, **more):
 def refine(obj, kind, places, value=None):
     """Asks something of the mesh object at places of its part, by an object below it in the tree; in one undo step. Returns the new object.
 
-    kind, places and value: "size", faces, a length; "divisions", edges, elements; "layers", two faces, elements; "bore", cylindrical faces, elements round
+    kind, places and value: "size", faces, edges or solids, a length; "levels", faces, edges, vertices or solids, times that their elements are divided by
+    three, 1 to 6; "divisions", edges, elements; "layers", two faces, elements; "bore", cylindrical faces, elements round
     each; "bias", edges, last element over first; "keep", faces none of whose edges is ignored; "axis", faces, an axis as "+X". Elements are 6, "3.." (at least), "..4", "2..5". Faces may be numbers.
     The next update_fem_mesh() obeys it. Raises InvalidInput.
 

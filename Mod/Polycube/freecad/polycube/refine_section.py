@@ -12,6 +12,27 @@ from .words import tr
 _WHAT, _WHERE, _VALUE = range(3)
 
 
+class _ValueEditor(QtGui.QStyledItemDelegate):
+    """Edits values in the table: a choice where there are few, a number within its bounds where they are known, else text."""
+
+    def __init__(self, section):
+        super().__init__(section.table)
+        self._section = section
+
+    def createEditor(self, parent, option, index):
+        obj = self._section.refinements()[index.row()]
+        kind_of_property, _, default, _ = refinements.kind_of(obj).value
+        if kind_of_property == "App::PropertyEnumeration":
+            editor = QtGui.QComboBox(parent)
+            editor.addItems(default)
+            return editor
+        if kind_of_property == "App::PropertyIntegerConstraint":
+            editor = QtGui.QSpinBox(parent)
+            editor.setRange(*default[1:3])
+            return editor
+        return super().createEditor(parent, option, index)
+
+
 class RefineSection(Section):
     """A table of the refinements of `panel.obj`: on or off, where, how much. Below it the same as text, for what objects cannot say."""
 
@@ -29,9 +50,10 @@ class RefineSection(Section):
         self.table.setSelectionMode(QtGui.QAbstractItemView.SingleSelection)
         self.table.verticalHeader().setVisible(False)
         self.table.horizontalHeader().setStretchLastSection(True)
+        self.table.setItemDelegateForColumn(_VALUE, _ValueEditor(self))
         self.add_button = QtGui.QToolButton()
         self.add_button.setText(tr("Add"))
-        self.add_button.setToolTip(tr("At the faces or edges that are selected in the 3D view"))
+        self.add_button.setToolTip(tr("At the faces, edges or vertices that are selected in the 3D view, or solids in the tree"))
         self.add_button.setPopupMode(QtGui.QToolButton.InstantPopup)
         menu = QtGui.QMenu(self.add_button)
         for kind in refinements.KINDS.values():
@@ -91,24 +113,26 @@ class RefineSection(Section):
     # --- changes: each is done and recorded ------------------------------------------------------------------------------
 
     def selected_places(self):
-        """Names of faces and edges of the part that are selected in the 3D view."""
+        """Names of faces, edges and vertices of the part that are selected in the 3D view, and of solids whose object is, where the part has several."""
         solid = shapes.solid_object(self._panel.part)
         owners = {solid.Name, self._panel.part.Name}
         body = solid.getParentGeoFeatureGroup()
         if body is not None and body.isDerivedFrom("PartDesign::Body"):
             owners.add(body.Name)
-        chosen = []
+        chosen, several = [], len(shapes.numbered_shape(self._panel.part).Solids) > 1
         for selection in FreeCADGui.Selection.getSelectionEx():
             if selection.DocumentName == solid.Document.Name and selection.ObjectName in owners:
                 chosen += [name for name in selection.SubElementNames if name not in chosen]
-        return chosen
+            if several and not selection.SubElementNames:
+                chosen += ["Solid{}".format(number) for number in shapes.solids_in(self._panel.part, selection.Object, ())]
+        return list(dict.fromkeys(chosen))
 
     def _offer(self):
         """Kinds that can be at what is selected."""
         places = self.selected_places() if self._panel.part_exists() else []
         if not places:
             self._panel.show_part_alone()
-            self._panel.tell(tr("Select faces or edges of the part in the 3D view, then press Add."))
+            self._panel.tell(tr("Select faces, edges or vertices of the part in the 3D view, then press Add."))
         for action in self.add_button.menu().actions():
             kind = refinements.KINDS[action.objectName()]
             count = sum(name.startswith(kind.takes) for name in places)
@@ -135,7 +159,7 @@ class RefineSection(Section):
         if kind == "size":
             shape = shapes.shape_of(self._panel.part)
             return float("{:.2g}".format(prediction.size_of(shape, self._panel.size_form.values()) / 2))
-        return {"divisions": "4", "layers": "3..", "bore": "16", "bias": 2.0, "axis": "+X"}.get(kind)
+        return {"levels": 1, "divisions": "4", "layers": "3..", "bore": "16", "bias": 2.0, "axis": "+X"}.get(kind)
 
     def _edited(self, item):
         if self._filling:
@@ -208,8 +232,10 @@ def _as_refinement(option, item):
     names = what.split("-")
     if option == "keep_faces":
         return "keep", [item], None
-    if option == "sizes" and what.startswith("Face"):
+    if option == "sizes" and what.startswith(("Face", "Solid")):
         return "size", [what], float(value)
+    if option == "refine" and what.startswith(refinements.KINDS["levels"].takes):
+        return "levels", [what], value
     if option in ("divisions", "bias") and what.startswith("Edge"):
         return option, [what], value
     if option == "divisions" and len(names) == 2:

@@ -13,7 +13,7 @@ _AXES = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 
 
 class Kind:
-    """What a refinement asks for. `option`: the mesher's, which it adds to; `takes`: Face or Edge; `count`: how many places it needs, None for any."""
+    """What a refinement asks for. `option`: the mesher's, which it adds to; `takes`: Face, Edge ...; `count`: how many places it needs, None for any."""
 
     def __init__(self, name, title, meaning, option, takes, value, count=None):
         self.name, self.title, self.meaning, self.option, self.takes, self.value, self.count = name, title, meaning, option, takes, value, count
@@ -22,16 +22,25 @@ class Kind:
 #: value: type, name and default of the property that holds it, and what it means; None where there is none.
 _ELEMENTS = ("App::PropertyString", "Elements", "4", "Number of elements: 6 exactly, 3.. at least, ..4 at most, 2..5")
 _RATIO = ("App::PropertyFloat", "Ratio", 2.0, "From the start of the edge to its end")
+#: Share of an edge's length below which no further element is asked for: lengths are rounded.
+_SLACK = 1e-9
+#: Times that elements are divided by three, at most, as the engine has it.
+_MOST_LEVELS = 6
+_SIZE = ("App::PropertyLength", "Size", 0.0, "Edge length")
+_LEVELS = ("App::PropertyIntegerConstraint", "Levels", (1, 1, _MOST_LEVELS, 1), "Times that elements are divided into three along every edge")
+_AXIS = ("App::PropertyEnumeration", "Axis", _AXES, "Axis")
+_FACES, _EDGES, _ANY = ("Face",), ("Edge",), ("Face", "Edge", "Vertex", "Solid")
 KINDS = {
     kind.name: kind
     for kind in (
-        Kind("size", noop("Local size"), noop("Another edge length at faces"), "sizes", "Face", ("App::PropertyLength", "Size", 0.0, "Edge length")),
-        Kind("divisions", noop("Divisions"), noop("Number of elements along edges"), "divisions", "Edge", _ELEMENTS),
-        Kind("layers", noop("Layers"), noop("Number of elements between two opposite faces"), "divisions", "Face", _ELEMENTS, 2),
-        Kind("bore", noop("Elements round a bore"), noop("Number of elements round cylindrical faces"), "divisions", "Face", _ELEMENTS),
-        Kind("bias", noop("Bias"), noop("Length of the last element along edges over that of the first"), "bias", "Edge", _RATIO),
-        Kind("keep", noop("Faces to keep"), noop("Faces none of whose edges is ignored"), "keep_faces", "Face", None),
-        Kind("axis", noop("Axis of faces"), noop("The axis that faces take in the blocks"), "labels", "Face", ("App::PropertyEnumeration", "Axis", _AXES, "Axis")),
+        Kind("size", noop("Local size"), noop("Another edge length at faces, at edges at most, or in solids"), "sizes", ("Face", "Edge", "Solid"), _SIZE),
+        Kind("levels", noop("Local refinement"), noop("Elements at faces, edges or vertices, and no others, divided by three"), "refine", _ANY, _LEVELS),
+        Kind("divisions", noop("Divisions"), noop("Number of elements along edges"), "divisions", _EDGES, _ELEMENTS),
+        Kind("layers", noop("Layers"), noop("Number of elements between two opposite faces"), "divisions", _FACES, _ELEMENTS, 2),
+        Kind("bore", noop("Elements round a bore"), noop("Number of elements round cylindrical faces"), "divisions", _FACES, _ELEMENTS),
+        Kind("bias", noop("Bias"), noop("Length of the last element along edges over that of the first"), "bias", _EDGES, _RATIO),
+        Kind("keep", noop("Faces to keep"), noop("Faces none of whose edges is ignored"), "keep_faces", _FACES, None),
+        Kind("axis", noop("Axis of faces"), noop("The axis that faces take in the blocks"), "labels", _FACES, _AXIS),
     )
 }
 
@@ -108,6 +117,14 @@ def _checked(kind, value):
         if value not in _AXES:
             raise InvalidInput("{}: '{}' is not one of {}".format(kind.title, value, ", ".join(_AXES)))
         return value
+    if kind.option == "refine":
+        try:
+            levels = int(value)
+        except (TypeError, ValueError):
+            levels = 0
+        if levels != float(value if levels else 0) or not 1 <= levels <= _MOST_LEVELS:
+            raise InvalidInput("{}: '{}' is not a whole number from 1 to {}".format(kind.title, value, _MOST_LEVELS))
+        return levels
     if kind.option == "bias":
         try:
             ratio = float(value)
@@ -125,17 +142,18 @@ def _checked(kind, value):
 
 def check(solid, kind, places, value=None):
     """Raises InvalidInput where the solid has not these places, or the kind cannot be there."""
+    wanted = " or ".join(filter(None, [", ".join(kind.takes[:-1]), kind.takes[-1]])).lower()
     if not places:
-        raise InvalidInput("{}: no {} is chosen".format(kind.title, kind.takes.lower()))
+        raise InvalidInput("{}: no {} is chosen".format(kind.title, wanted))
     for name in places:
-        if name.rstrip("0123456789") != kind.takes:
-            raise InvalidInput("{}: {} is no {}".format(kind.title, name, kind.takes.lower()))
+        if name.rstrip("0123456789") not in kind.takes:
+            raise InvalidInput("{}: {} is no {}".format(kind.title, name, wanted))
         if not fem_mesh.exists(solid.Shape, name):
             raise InvalidInput("{}: {} has no {} any more".format(kind.title, solid.Label, name))
         if kind.name == "bore" and not _circle(solid.Shape, name):
             raise InvalidInput("{}: {} has no full circle".format(kind.title, name))
     if kind.count and len(places) != kind.count:
-        raise InvalidInput("{}: {} {}s are needed, not {}".format(kind.title, kind.count, kind.takes.lower(), len(places)))
+        raise InvalidInput("{}: {} {}s are needed, not {}".format(kind.title, kind.count, wanted, len(places)))
     if value is not None:
         _checked(kind, value)
 
@@ -183,10 +201,10 @@ def with_refinements(options, mesh):
         wrong = fault(obj)
         if wrong:
             raise InvalidInput("{}: {}".format(obj.Label, wrong))
-        kind = kind_of(obj)
-        option = next(one for one in option_table.table() if one["name"] == kind.option)
-        text = option_table.as_text(option, merged.get(kind.option) or "")
-        merged[kind.option] = ",".join(filter(None, [text, *_items(obj, kind)]))
+        for name, items in _items(obj, kind_of(obj)).items():
+            option = next(one for one in option_table.table() if one["name"] == name)
+            text = option_table.as_text(option, merged.get(name) or "")
+            merged[name] = ",".join(filter(None, [text, *items]))
     labels = merged.get("labels")
     if isinstance(labels, str):
         merged["labels"] = option_table.from_text({"type": "labels"}, labels)
@@ -194,17 +212,25 @@ def with_refinements(options, mesh):
 
 
 def _items(obj, kind):
-    """The refinement as items of its option's text."""
+    """The refinement as {option: items of its text}."""
     places, value = places_of(obj), getattr(obj, kind.value[1]) if kind.value else None
+    shape = obj.References[0][0].Shape
     if kind.name == "layers":
-        return ["-".join(places) + "=" + value]
+        return {kind.option: ["-".join(places) + "=" + value]}
     if kind.name == "bore":
-        shape = obj.References[0][0].Shape
-        return sorted({"{}={}".format(_circle(shape, name), value) for name in places})
+        return {kind.option: sorted({"{}={}".format(_circle(shape, name), value) for name in places})}
     if kind.name == "keep":
-        return places
-    plain = repr(float(value.Value)) if hasattr(value, "Value") else value
-    return ["{}={}".format(name, plain) for name in places]
+        return {kind.option: places}
+    if kind.name != "size":
+        return {kind.option: ["{}={}".format(name, value) for name in places]}
+    # Edges have no sizes of their own in the engine: as many elements at least.
+    edges = ["{}={}..".format(name, math.ceil(shape.getElement(name).Length / value.Value * (1 - _SLACK))) for name in places if name.startswith("Edge")]
+    others = ["{}={!r}".format(name, float(value.Value)) for name in places if not name.startswith("Edge")]
+    return {option: items for option, items in (("sizes", others), ("divisions", edges)) if items}
+
+
+#: Properties that hold what is asked for.
+_VALUES = sorted({kind.value[1] for kind in KINDS.values() if kind.value})
 
 
 class Refinement(Stateless):
@@ -227,6 +253,10 @@ class Refinement(Stateless):
             obj.addProperty(type_name, name, "Refinement", meaning)
             setattr(obj, name, default)
 
+    def onDocumentRestored(self, obj):
+        if obj.Kind == "levels":
+            obj.Levels = (obj.Levels, *_LEVELS[2][1:])  # documents do not hold the bounds
+
     def execute(self, obj):
         wrong = fault(obj)
         if obj.Fault != wrong:
@@ -234,7 +264,7 @@ class Refinement(Stateless):
             obj.Label2 = wrong  # FreeCAD's tree shows it
 
     def onChanged(self, obj, name):
-        if "Restore" in obj.State or name not in ("References", "Suppressed", "Size", "Elements", "Ratio", "Axis"):
+        if "Restore" in obj.State or name not in ("References", "Suppressed", *_VALUES):
             return
         mesh = mesh_of(obj)
         if mesh is not None:

@@ -665,6 +665,65 @@ class Large(PanelTest):
         self.assertFalse(FreeCADGui.Control.activeDialog())
         self.assertIsNone(QtGui.QApplication.overrideCursor())
 
+    def opened(self):
+        """A panel of a mesh that it has not made: the cells are read from the document."""
+        panel = self.meshed(4.0)
+        self.press("Ok")
+        return self.caught(lambda: panel.obj.ViewObject.Proxy.doubleClicked(panel.obj.ViewObject))
+
+    def test_the_window_goes_on_while_cells_are_looked_at(self):
+        """Of a large mesh, which 20,000 cells make one: between two breaths a fixed number of nodes or cells is read or measured."""
+        panel = self.opened()
+        result, beats, breathe = panel.result, [], panel.result._breathe
+        self.enterContext(mock.patch.object(result, "_breathe", lambda: (beats.append(True), breathe())))
+        self.enterContext(mock.patch.object(measures, "SLICE", 100))
+        result.measure_box.setCurrentIndex(2)
+        self.assertTrue(wait_until(lambda: "Skew" in result.measure_box.currentText() and result.worst.item(0, 2).text()))
+        process_events()
+        self.assertGreater(len(beats), panel.obj.NodeCount // 100 + 2 * panel.obj.Hexahedra // 100)
+        beats.clear()
+        scene = FreeCADGui.activeDocument().activeView().getSceneGraph()
+        before = scene.getNumChildren()
+        for place in (20, 40, 60):
+            result.cut.setCurrentIndex(1)
+            result.cut_place.setValue(place)
+        process_events()
+        self.assertEqual(len(beats), 3, "once for all")
+        self.assertEqual(scene.getNumChildren(), before + 1)
+        result.cut.setCurrentIndex(0)
+        process_events()
+        self.assertEqual(scene.getNumChildren(), before)
+        self.press("Ok")
+
+    def test_a_document_that_is_closed_while_cells_are_looked_at(self):
+        for look in (
+            lambda result: result.cut.setCurrentIndex(1),
+            lambda result: result.measure_box.setCurrentIndex(1),
+            lambda result: result.colours.setChecked(True),
+            lambda result: result.worst.itemDoubleClicked.emit(result.worst.item(0, 0)),
+        ):
+            if not self.is_open():
+                self.setUp()
+            panel = self.opened()
+            result, beats, breathe = panel.result, [], panel.result._breathe
+
+            def close():
+                beats.append(True)
+                if self.is_open():
+                    QtCore.QTimer.singleShot(0, lambda: self.is_open() and FreeCAD.closeDocument(self.name))
+                breathe()
+
+            with mock.patch.object(measures, "SLICE", 100), mock.patch.object(result, "_breathe", close):
+                with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
+                    look(result)
+                    self.assertTrue(wait_until(lambda: not self.is_open(), 10))
+                    process_events()
+            self.assertEqual(error.call_args_list, [])
+            self.assertLess(len(beats), 4, "it ends there")
+            self.assertIsNone(panel.form)
+            self.assertIsNone(result._cell_overlay)
+            self.assertIsNone(QtGui.QApplication.overrideCursor())
+
 
 class FromPython(PanelTest):
     def test_a_call_in_the_window_lets_it_go_on_and_can_be_cancelled(self):

@@ -12,10 +12,9 @@ _PLAIN = (0.9, 0.65, 0.2)
 
 
 class CellOverlay(overlay.Overlay):
-    """Draws whole cells of a measures.Cells."""
+    """Draws whole cells of a measures.Cells, which breathe meanwhile."""
 
     def __init__(self, document, standing, cells):
-        super().__init__(document, standing)
         self._cells = cells
         sides = cells.nodes[:, :8][:, measures.SIDES]  # (cells, 6, 4)
         self._sides = sides.reshape(-1, 4)
@@ -23,7 +22,9 @@ class CellOverlay(overlay.Overlay):
         corners = numpy.sort(self._sides, axis=1).astype(numpy.int64)
         count = len(cells.points)
         keys = (corners[:, 0] * count + corners[:, 1]) * count + corners[:, 2]
+        cells.breathe()
         _, first, twin = numpy.unique(keys, return_index=True, return_inverse=True)
+        cells.breathe()
         twin = twin.ravel()
         # The cell behind each side, -1 at the boundary: of two equal sides each finds the other.
         other = numpy.full(len(self._sides), -1)
@@ -34,6 +35,8 @@ class CellOverlay(overlay.Overlay):
         has_two = second >= 0
         other[first[has_two]] = second[has_two] // 6
         self._behind = other
+        cells.breathe()
+        super().__init__(document, standing)
 
     def show(self, chosen, colours=None):
         """chosen: a truth for every cell. colours: (cells, 3), or None for plain ones. Returns the number of sides drawn."""

@@ -58,6 +58,8 @@ def build(result, breathe=None):
     for name, parts in result.groups.items():
         kind, what = next((kind, what) for what, kind in kinds.items() if what in parts)
         add_group(mesh, name, kind, (parts[what] + offsets[what]).tolist())
+    if breathe:
+        breathe(1.0)
     return mesh
 
 

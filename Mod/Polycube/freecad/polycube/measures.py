@@ -93,17 +93,30 @@ MEASURES = [
 ]
 
 
-class Cells:
-    """The hexahedra of a Fem.FemMesh as arrays; measures are kept once computed."""
+#: Cells or nodes that are worked on between two breaths: a few hundredths of a second. Meshes with more cells are large to the window.
+SLICE = 20000
 
-    def __init__(self, mesh):
+
+def _no_breath():
+    """For callers without a window."""
+
+
+class Cells:
+    """The hexahedra of a Fem.FemMesh as arrays; measures are kept once computed.
+
+    `breathe()` is called again and again in what takes long, for a window that is not to freeze; what it raises comes to the caller.
+    """
+
+    def __init__(self, mesh, breathe=_no_breath):
         self.numbers = numpy.array(mesh.Volumes, dtype=int)  #: of each cell in the mesh
-        points = mesh.Nodes
+        self.breathe = breathe
+        nodes = self._in_slices(lambda some: [mesh.getElementNodes(number) for number in some], self.numbers.tolist(), int)
+        used = numpy.zeros(nodes.max(initial=0) + 1, dtype=bool)
+        used[nodes] = True
+        self.node_numbers = numpy.flatnonzero(used).tolist()  #: those of cells
         #: Row i is node i; numbers that are not in use stay zero.
-        self.points = numpy.zeros((max(points, default=0) + 1, 3))
-        self.points[list(points)] = [tuple(point) for point in points.values()]
-        self.node_numbers = list(points)
-        nodes = numpy.array([mesh.getElementNodes(number) for number in mesh.Volumes], dtype=int).reshape(len(self.numbers), -1)
+        self.points = numpy.zeros((len(used), 3))
+        self.points[self.node_numbers] = self._in_slices(lambda some: [tuple(mesh.getNodeById(number)) for number in some], self.node_numbers, float, 3)
         #: node numbers of each cell, in VTK's order
         self.nodes = numpy.empty_like(nodes)
         order = engine.description()["smesh_hex20"][: nodes.shape[1]]
@@ -111,7 +124,7 @@ class Cells:
         self._values = {}
 
     @classmethod
-    def of_result(cls, result):
+    def of_result(cls, result, breathe=_no_breath):
         """The same from the arrays of a MeshResult, of which fem_mesh.build() makes the mesh; in no time, where reading the mesh takes some."""
         cells = cls.__new__(cls)
         cells.numbers = numpy.arange(1, len(result.hexes) + 1)
@@ -119,7 +132,16 @@ class Cells:
         cells.node_numbers = list(range(1, len(cells.points)))
         cells.nodes = result.hexes + 1
         cells._values = {measure.name: getattr(result, measure.name) for measure in MEASURES}
+        cells.breathe = breathe
         return cells
+
+    def _in_slices(self, work, things, kind, width=8):
+        """An array of what work() makes of all things, a slice at a time with a breath after each. `width`: of its rows if there are none."""
+        found = []
+        for start in range(0, len(things), SLICE):
+            found.append(numpy.array(work(things[start : start + SLICE]), dtype=kind))
+            self.breathe()
+        return numpy.concatenate(found) if found else numpy.zeros((0, width), dtype=kind)
 
     def corners(self, chosen=slice(None)):
         """(cells, 8, 3)"""
@@ -128,7 +150,7 @@ class Cells:
     def values(self, measure):
         """One number for every cell."""
         if measure.name not in self._values:
-            self._values[measure.name] = measure.of(self.corners())
+            self._values[measure.name] = self._in_slices(lambda some: measure.of(self.corners(some)), numpy.arange(len(self.numbers)), float).ravel()
         return self._values[measure.name]
 
     def worst(self, measure, count):

@@ -1,10 +1,11 @@
 """The panel's section "Result": quality as numbers, bars and colours, the worst cells, cells by themselves, and what of the CAD model is not captured."""
 
+import functools
 import json
 
 from PySide import QtCore, QtGui
 
-from . import objects, overlay, quality_view, shapes
+from . import measures, objects, overlay, quality_view, shapes
 from .cell_view import CellOverlay, Hidden, zoom
 from .folding import Section
 from .histogram import Histogram
@@ -27,7 +28,8 @@ class ResultSection(Section):
         self._panel = panel
         self._cells = self._cells_of = None  # computed when they are first asked for, of that Report
         self._cell_overlay = self._hidden = self._lost_overlay = None
-        self._updating = False
+        self._updating = self._is_at_work = False
+        self._waiting = []  # what is to be done on a large mesh, once each
         self.summary = QtGui.QLabel(tr("No mesh yet"))
         self.summary.setWordWrap(True)
         self.measure_box = QtGui.QComboBox()
@@ -63,16 +65,16 @@ class ResultSection(Section):
         self.worst.verticalHeader().setVisible(False)
         self.worst.horizontalHeader().setStretchLastSection(True)
         self._lay_out()
-        self.measure_box.currentIndexChanged.connect(self._measure_changed)
-        self.colours.toggled.connect(self._colour)
-        self.blocks.toggled.connect(self._isolate)
-        self.below.toggled.connect(self._isolate)
-        self.threshold.valueChanged.connect(lambda _: self.below.isChecked() and self._isolate())
-        self.cut.currentIndexChanged.connect(self._isolate)
-        self.cut_place.valueChanged.connect(lambda _: self.cut.currentIndex() and self._isolate())
+        self.measure_box.currentIndexChanged.connect(lambda _: self._soon(self._measure_changed))
+        self.colours.toggled.connect(lambda _: self._soon(self._colour))
+        self.blocks.toggled.connect(lambda _: self._soon(self._isolate))
+        self.below.toggled.connect(lambda _: self._soon(self._isolate))
+        self.threshold.valueChanged.connect(lambda _: self.below.isChecked() and self._soon(self._isolate))
+        self.cut.currentIndexChanged.connect(lambda _: self._soon(self._isolate))
+        self.cut_place.valueChanged.connect(lambda _: self.cut.currentIndex() and self._soon(self._isolate))
         self.lost.toggled.connect(self._show_lost)
         self.worst.itemSelectionChanged.connect(self._highlight)
-        self.worst.itemDoubleClicked.connect(self._zoom)
+        self.worst.itemDoubleClicked.connect(lambda item: self._soon(functools.partial(self._zoom, item.row())))
 
     def _lay_out(self):
         self._tools = QtGui.QWidget()
@@ -103,7 +105,7 @@ class ResultSection(Section):
         if not obj or not obj.Report:
             return
         if result:
-            self._cells, self._cells_of = Cells.of_result(result), obj.Report
+            self._cells, self._cells_of = Cells.of_result(result, self._breathe), obj.Report
         self.clear()
         report = json.loads(obj.Report)
         self._report = report
@@ -132,39 +134,73 @@ class ResultSection(Section):
         """The cells of the mesh as arrays."""
         obj = self._panel.obj
         if self._cells is None or self._cells_of != obj.Report:
-            self._cells, self._cells_of = Cells(obj.FemMesh), obj.Report
+            self._cells, self._cells_of = Cells(obj.FemMesh, self._breathe), obj.Report
         return self._cells
+
+    def _is_large(self):
+        return self._panel.mesh_exists() and self._panel.obj.Hexahedra > measures.SLICE
+
+    def _soon(self, work):
+        """Does what a widget was clicked for: at once, of a large mesh when the click is over, for the window goes on then, and may close with its widgets."""
+        if not self._is_large():
+            work()
+            return
+        if work not in self._waiting:
+            self._waiting.append(work)
+        QtCore.QTimer.singleShot(0, self._work)
+
+    def _work(self):
+        if self._is_at_work:
+            return
+        self._is_at_work = True
+        try:
+            while self._waiting and self._panel.form is not None and self._panel.mesh_exists():
+                self._waiting.pop(0)()
+        except _Ended:
+            pass
+        finally:
+            self._is_at_work = False
+
+    def _breathe(self):
+        """The window goes on, though nothing can be clicked. What is under way ends here if the panel is closed meanwhile, or the mesh goes."""
+        if not self._is_at_work:
+            return
+        QtGui.QApplication.processEvents(QtCore.QEventLoop.ExcludeUserInputEvents)
+        if self._panel.form is None or not self._panel.mesh_exists():
+            raise _Ended
 
     def _measure_changed(self):
         self._judge()
         if self.colours.isChecked():
-            self._colour(True)
+            self._colour()
         self._isolate()
 
     def _judge(self):
         """Bars and list by the chosen measure."""
         measure, worst = self.measure, self._report["worst_cells"]
         self._updating = True
-        if measure is MEASURES[0]:
-            # as the mesher has counted them, at no cost
-            rows = [(cell["hex"], cell["scaled_jacobian"], cell["faces"]) for cell in worst]
-            self.histogram.set_counts(self._report["quality"]["histogram"], measure)
-        else:
+        try:
             with busy():
-                cells = self.cells()
-                values = cells.values(measure)
-                chosen = cells.worst(measure, _WORST)
-                at = faces_of(self._panel.obj.FemMesh, cells.nodes[chosen, :8])
-            rows = [(index, values[index], faces) for index, faces in zip(chosen.tolist(), at)]
-            self.histogram.set_counts(measure.histogram(values), measure)
-        self.threshold.setValue(measure.value(0.3))
-        self.worst.clearSelection()
-        self.worst.setRowCount(len(rows))
-        for row, (index, value, faces) in enumerate(rows):
-            for column, text in enumerate((str(index + 1), "{:.3f}".format(value), ", ".join(faces) or tr("inside"))):
-                self.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
-        self.worst.resizeColumnsToContents()
-        self._updating = False
+                if measure is MEASURES[0]:
+                    # as the mesher has counted them, at no cost
+                    rows = [(cell["hex"], cell["scaled_jacobian"], cell["faces"]) for cell in worst]
+                    self.histogram.set_counts(self._report["quality"]["histogram"], measure)
+                else:
+                    cells = self.cells()
+                    values = cells.values(measure)
+                    chosen = cells.worst(measure, _WORST)
+                    at = faces_of(self._panel.obj.FemMesh, cells.nodes[chosen, :8])
+                    rows = [(index, values[index], faces) for index, faces in zip(chosen.tolist(), at)]
+                    self.histogram.set_counts(measure.histogram(values), measure)
+                self.threshold.setValue(measure.value(0.3))
+                self.worst.clearSelection()
+                self.worst.setRowCount(len(rows))
+                for row, (index, value, faces) in enumerate(rows):
+                    for column, text in enumerate((str(index + 1), "{:.3f}".format(value), ", ".join(faces) or tr("inside"))):
+                        self.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
+                self.worst.resizeColumnsToContents()
+        finally:
+            self._updating = False
 
     # --- what there is to see --------------------------------------------------------------------------------------------
 
@@ -176,11 +212,11 @@ class ResultSection(Section):
         cell = int(self.worst.item(row, 0).text())
         self._panel.obj.ViewObject.HighlightedNodes = list(self._panel.obj.FemMesh.getElementNodes(cell))
 
-    def _zoom(self, item):
+    def _zoom(self, row):
         """Looks closely at a cell of the list, alone."""
         if not self._panel.mesh_exists():
             return
-        index = int(self.worst.item(item.row(), 0).text()) - 1
+        index = int(self.worst.item(row, 0).text()) - 1
         with busy():
             cells = self.cells()
             chosen = cells.numbers == index + 1
@@ -188,9 +224,9 @@ class ResultSection(Section):
             zoom(self._panel.obj.Document, shapes.standing(self._panel.obj), cells.corners(chosen)[0])
 
     def _bar_clicked(self, _bar):
-        self._isolate()
+        self._soon(self._isolate)
 
-    def _isolate(self, *_):
+    def _isolate(self):
         """Shows the cells of the chosen bar, beyond the threshold, on one side of the cut; the mesh as it is where none of these is chosen, and no blocks."""
         if self._updating or not self._panel.mesh_exists():
             return
@@ -234,12 +270,12 @@ class ResultSection(Section):
             self._hidden.end()
         self._cell_overlay = self._hidden = None
 
-    def _colour(self, wanted):
+    def _colour(self):
         """Paints the nodes by the worst of their cells."""
         if not self._panel.mesh_exists():
             return
         view = self._panel.obj.ViewObject
-        if not wanted:
+        if not self.colours.isChecked():
             view.resetNodeColor()
         else:
             with busy():
@@ -266,6 +302,7 @@ class ResultSection(Section):
     def clear(self):
         """No mark of the mesh is left in the 3D view."""
         self._updating = True
+        self._waiting.clear()
         self._end_cells()
         self._show_lost(False)
         if self._panel.mesh_exists():
@@ -280,6 +317,10 @@ class ResultSection(Section):
             box.setChecked(False)
         self.cut.setCurrentIndex(0)
         self._updating = False
+
+
+class _Ended(Exception):
+    """What was looked at is there no more."""
 
 
 class busy:

@@ -381,6 +381,9 @@ class MeshPanel:
             self.axes.preview.setChecked(False)
             self.result.clear()
             warnings = self._put(result, mesh)
+            self._breathe(1.0)
+            if not self.mesh_exists() or self._form is None:
+                return
             self.show_mesh()
             self.result.show_mesh(result)
             self.result.set_open(True)

@@ -648,6 +648,14 @@
       <translation>Netz übernehmen</translation>
     </message>
     <message>
+      <source>The mesh will not have:</source>
+      <translation>Das Netz wird nicht haben:</translation>
+    </message>
+    <message>
+      <source>{} more</source>
+      <translation>{} weitere</translation>
+    </message>
+    <message>
       <source>Cancel</source>
       <translation>Abbrechen</translation>
     </message>

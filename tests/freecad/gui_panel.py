@@ -341,6 +341,33 @@ class Analyses(PanelTest):
         self.assertIn(panel.obj, analysis.Group)
         self.assertEqual(list(self.document.UndoNames), ["Mesh parameters"])
 
+    def test_what_the_mesh_will_not_have_is_listed_before_it_is_made(self):
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+        other = self.document.addObject("Part::Box", "Other")
+        fixed = ObjectsFem.makeConstraintFixed(self.document, "Support")
+        analysis.addObject(fixed)
+        other.Placement.Base.x = 100
+        self.document.recompute()
+        fixed.References = [(other, "Face1")]
+        panel = self.open_panel(self.box)
+        listed = panel.form.uncaptured
+        self.assertFalse(listed.isVisible(), "no analysis is chosen")
+        panel.analysis_box.setCurrentIndex(1)
+        picture("uncaptured")
+        self.assertTrue(listed.isVisible())
+        self.assertEqual(listed.text(), "The mesh will not have:\n\u2022 Support: Face1 of Other is not of Block")
+        fixed.References = [(self.box, "Face1")]
+        self.press("Apply")
+        self.assertFalse(listed.isVisible())
+        self.press("Cancel")
+        self.assertTrue(wait_until(lambda: not panel.process, 20))
+        panel.analysis_box.setCurrentIndex(0)
+        fixed.References = [(self.box, "Edge{}".format(number)) for number in range(1, 13)] + [(other, "Edge{}".format(number)) for number in range(1, 9)]
+        panel.analysis_box.setCurrentIndex(1)
+        self.assertEqual(len(listed.text().split("\n")), 8)
+        self.assertIn("2 more", listed.text())
+        self.press("Cancel")
+
     def test_the_command_twice_is_one_mesh(self):
         first = self.meshed()
         self.press("Ok")

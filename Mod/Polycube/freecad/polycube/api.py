@@ -142,6 +142,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
             option_table.write(obj, given)
         return obj
     meshed = shapes.signature(shape)
+    _tell_uncaptured(part, analysis)
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
     with transaction(document, "Hexahedral mesh from shape"):
         obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
@@ -185,6 +186,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     shape = shapes.shape_of(part, beside=obj)
     meshed = shapes.signature(shape)
+    _tell_uncaptured(part, objects.analysis_of(obj))
     wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
     result = _run("mesh", shape, wanted, progress, log, cancel)
     with transaction(obj.Document, "Hexahedral mesh"):
@@ -363,6 +365,14 @@ def _check_mesh(obj):
 
     if not objects.is_polycube(obj):
         raise InvalidInput("{} is no mesh of Polycube".format(getattr(obj, "Label", obj)))
+
+
+def _tell_uncaptured(part, analysis):
+    """Warns of what the mesh will have no places for, before it is made."""
+    from . import uncaptured
+
+    for line in uncaptured.lines(part, analysis):
+        FreeCAD.Console.PrintWarning(line + "\n")
 
 
 def _warn(obj, warnings):

@@ -2,8 +2,6 @@
 
 import importlib.util
 
-import FreeCAD
-
 from . import compat, engine, shapes
 
 #: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
@@ -104,7 +102,7 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
     for name, nodes in sorted(node_groups, key=lambda group: (len(group[0]), group[0])):
         add_group(mesh, name, "Node", nodes)
     if len(materials) > 1:
-        referred = {material.Name: {number for obj, names in material.References for number in _solids_of(part, obj, names)} for material in materials}
+        referred = {material.Name: {number for obj, names in material.References for number in solids_of(part, obj, names)} for material in materials}
         rest = set(result.hex_solid.tolist()).difference(*referred.values())
         for material in sorted(materials, key=lambda member: (len(member.Name), member.Name)):
             # One that refers to nothing is that of all others.
@@ -118,7 +116,7 @@ def special_kind(member):
     return _SPECIAL.get(getattr(getattr(member, "Proxy", None), "Type", "")) or _SPECIAL.get(member.TypeId)
 
 
-def _solids_of(part, obj, names):
+def solids_of(part, obj, names):
     """Numbers of the solids that references of a material mean; all for the part itself, which may be a container."""
     if obj == part and not hasattr(obj, "Shape"):
         return range(1, len(shapes.numbered_shape(part).Solids) + 1)
@@ -160,8 +158,8 @@ def constrained_faces(part, analysis):
             continue
         for name in _references(member, part):
             if not exists(shape, name):
-                FreeCAD.Console.PrintWarning("{}: {} has no {} any more\n".format(member.Label, inside[0].Label, name))
-            elif name.startswith("Face"):
+                continue
+            if name.startswith("Face"):
                 found.add(int(name[4:]))
             elif not name.startswith("Solid"):
                 around = shape.ancestorsOfType(shape.getElement(name), type(faces[0]))

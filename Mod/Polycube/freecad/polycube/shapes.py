@@ -117,13 +117,19 @@ def number_of(whole, shape, owner=None):
         copies.sort(key=unlike)
     same += [number for number, _ in copies]
     if not same and shape.ShapeType == "Solid":
-        same = [number for number, own in numbered if _coincide(own, shape)]
+        reach = RELATIVE_TOLERANCE * shape.BoundBox.DiagonalLength
+        same = [number for number, own in numbered if coincide(own, shape, reach)]
     return same[0] if same else 0
 
 
-def _coincide(solid, other):
-    reach = RELATIVE_TOLERANCE * other.BoundBox.DiagonalLength
-    return abs(solid.Volume - other.Volume) <= reach**3 + RELATIVE_TOLERANCE * other.Volume and solid.CenterOfMass.isEqual(other.CenterOfMass, reach)
+def coincide(a, b, reach):
+    """Whether two shapes of one kind, faces, edges, vertices or solids, are of the same size and at the same place, `reach` apart at most."""
+    size = {"Face": "Area", "Edge": "Length", "Solid": "Volume"}.get(a.ShapeType)
+    if size is None:
+        return a.Point.isEqual(b.Point, reach)
+    own, other = getattr(a, size), getattr(b, size)
+    least = reach ** {"Area": 2, "Length": 1, "Volume": 3}[size]
+    return abs(own - other) <= least + RELATIVE_TOLERANCE * other and a.CenterOfMass.isEqual(b.CenterOfMass, reach)
 
 
 def entities(shape, kind):

@@ -8,7 +8,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, preferences, refinements, resources, shapes, typical
+from . import analyses, api, fem_mesh, fields, job, macro, objects, option_table, prediction, preferences, refinements, resources, shapes, typical, uncaptured
 from .analysis_box import AnalysisBox
 from .axes_section import AxesSection
 from .cell_view import zoom
@@ -35,6 +35,8 @@ _WAYS = {"label": ("axes",), "deform": ("axes", "finer"), "quantize": (), "fit":
 _WAYS_ELSE = ("finer", "effort", "axes")
 #: Of a size that was too coarse, and degrees of edges that are given up; the guide advises 10 to 20.
 _FINER, _SMOOTH = 0.7, 15.0
+#: Lines that the panel has room for of what the mesh will not have.
+_LISTED = 6
 
 
 def _exists(obj):
@@ -69,6 +71,7 @@ class MeshPanel:
         self.analysis_box = AnalysisBox(FreeCAD.getDocument(self.document_name), objects.analysis_of(obj) if obj else None, analysis)
         self.analysis = self.analysis_box.chosen()  # that of the mesh that is made
         self.form = self._make_form()
+        self.show_uncaptured()
         self._show_parameters()
         self._filling = False
         self.result.show_mesh()
@@ -102,6 +105,10 @@ class MeshPanel:
         head = QtGui.QFormLayout()
         head.addRow(QtGui.QLabel(tr("Part:")), form.part)
         head.addRow(QtGui.QLabel(tr("Analysis:")), self.analysis_box)
+        form.uncaptured = QtGui.QLabel()
+        form.uncaptured.setWordWrap(True)
+        head.addRow(form.uncaptured)
+        self.analysis_box.currentIndexChanged.connect(lambda _: self.show_uncaptured())
         parameters = QtGui.QVBoxLayout(form.parameters)
         parameters.setContentsMargins(0, 0, 0, 0)
         parameters.addLayout(head)
@@ -197,6 +204,7 @@ class MeshPanel:
             self.tell(tr("The mesher is running already."), error=True)
             return
         self.form.log.clear()
+        self.show_uncaptured()
         self.obj = self.obj if self.mesh_exists() else None
         self.analysis = self.analysis_box.chosen()
         try:
@@ -430,6 +438,7 @@ class MeshPanel:
     def _show_labels(self, labels):
         line, good = self.axes.show_labels(labels)
         self.hint.counts = True  # what a count takes longest for is there
+        self.show_uncaptured()
         self.form.progress.setValue(100)
         self.tell(line, error=not good)
 
@@ -545,6 +554,14 @@ class MeshPanel:
         for one in fineness:
             one.widget.setEnabled(not used or one in used)
         self.hint.show_estimate()
+
+    def show_uncaptured(self):
+        """Lists what of the analysis the mesh will have no places for."""
+        found = uncaptured.lines(self.part, self.analysis_box.chosen(), self.axes.shown) if self.part_exists() else []
+        told = [tr("The mesh will not have:")] + found[:_LISTED] + ([tr("{} more").format(len(found) - _LISTED)] if len(found) > _LISTED else [])
+        self.form.uncaptured.setText("\n\u2022 ".join(told))
+        self.form.uncaptured.setToolTip("\n".join(found))
+        self.form.uncaptured.setVisible(bool(found))
 
     def _show_parameters(self):
         self.form.part.setText(self.part.Label if self.part else tr("none"))

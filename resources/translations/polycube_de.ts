@@ -520,6 +520,10 @@
       <translation>etwa {} Zellen</translation>
     </message>
     <message>
+      <source>{} or more, where edges are short</source>
+      <translation>{} oder mehr, wo Kanten kurz sind</translation>
+    </message>
+    <message>
       <source>up to {}, {} without local sizes</source>
       <translation>bis zu {}, {} ohne lokale Größen</translation>
     </message>

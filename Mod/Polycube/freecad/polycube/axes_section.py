@@ -40,7 +40,7 @@ class AxesSection(Section):
         row = QtGui.QHBoxLayout()
         row.addWidget(self.given)
         row.addWidget(self.automatic)
-        for widget in (self.preview, self.beside, self.key):
+        for widget in (self.preview, self.beside, self.key, self.told):
             self.body.addWidget(widget)
         self.body.addLayout(row)
         self.body.addWidget(self.form)
@@ -60,6 +60,7 @@ class AxesSection(Section):
         self.key.setVisible(wanted)
         if not wanted:
             self.beside.setChecked(False)
+            self.say("")
             self.end()
             return
         panel = self._panel
@@ -118,9 +119,10 @@ class AxesSection(Section):
         line = tr("{} charts, {}, {} turning points, {} CAD edges not captured.").format(
             labels.chart.max() + 1, tr("valid") if labels.valid else tr("not valid"), len(labels.turning_points), lost
         )
-        if labels.valid:
-            return line, True
-        return line + " " + tr("No blocks can be made with these axes: give other faces other axes, or make some automatic again."), False
+        if not labels.valid:
+            line += " " + tr("No blocks can be made with these axes: give other faces other axes, or make some automatic again.")
+        self.say(line)
+        return line, labels.valid
 
     # --- clicks ----------------------------------------------------------------------------------------------------------
 
@@ -136,7 +138,9 @@ class AxesSection(Section):
             self._automatic[face] = self.shown.face_label[face]
         label = label_view.next_label(given, self._automatic.get(face), possible)
         if not possible:
-            self._panel.tell(tr("{} turns too far for any one axis.").format(name), error=True)
+            line = tr("{} turns too far for any one axis.").format(name)
+            self.say(line)
+            self._panel.tell(line, error=True)
             return
         if label is None:
             del self.labels[name]

@@ -22,6 +22,9 @@ class Section(QtGui.QWidget):
         self._content = QtGui.QWidget()
         self.body = QtGui.QVBoxLayout(self._content)
         self.body.setContentsMargins(8, 0, 0, 4)
+        self.told = QtGui.QLabel()
+        self.told.setWordWrap(True)
+        self.told.setVisible(False)
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
@@ -30,6 +33,11 @@ class Section(QtGui.QWidget):
         self.heading.toggled.connect(self._show)
         self.heading.setChecked(is_open)
         self._show(is_open)
+
+    def say(self, text):
+        """A line in the section itself, where `told` is placed in its body: what stands elsewhere in the panel may be out of sight."""
+        self.told.setText(text)
+        self.told.setVisible(bool(text))
 
     def is_open(self):
         return self.heading.isChecked()

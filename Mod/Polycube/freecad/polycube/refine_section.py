@@ -75,6 +75,7 @@ class RefineSection(Section):
         self.form = OptionForm(options, panel.changed)
         self.body.addWidget(self.table)
         self.body.addLayout(buttons)
+        self.body.addWidget(self.told)
         self.body.addWidget(self.form)
         self.table.itemChanged.connect(self._edited)
         self.table.itemSelectionChanged.connect(self._show_places)
@@ -130,13 +131,18 @@ class RefineSection(Section):
     def _offer(self):
         """Kinds that can be at what is selected."""
         places = self.selected_places() if self._panel.part_exists() else []
+        self.say("")
         if not places:
             self._panel.show_part_alone()
-            self._panel.tell(tr("Select faces, edges or vertices of the part in the 3D view, then press Add."))
+            self.say(tr("Select faces, edges or vertices of the part in the 3D view, then press Add."))
         for action in self.add_button.menu().actions():
             kind = refinements.KINDS[action.objectName()]
             count = sum(name.startswith(kind.takes) for name in places)
             action.setEnabled(count == kind.count if kind.count else count > 0)
+
+    def _refuse(self, error):
+        self._panel.tell(str(error), error=True)
+        self.say(str(error))
 
     def add(self, kind):
         """A refinement at what is selected, with a value to begin with; a mesh object without cells is made where there is none."""
@@ -149,7 +155,7 @@ class RefineSection(Section):
                 panel.make_object()
                 obj = api.refine(panel.obj, kind, places, self._first_value(kind))
         except InvalidInput as error:
-            panel.tell(str(error), error=True)
+            self._refuse(error)
             return
         macro.refined(obj, panel.obj)
         self.show_refinements(obj)
@@ -165,6 +171,7 @@ class RefineSection(Section):
         if self._filling:
             return
         obj = self.refinements()[item.row()]
+        self.say("")
         try:
             if item.column() == _WHAT:
                 suppressed = item.checkState() == QtCore.Qt.Unchecked
@@ -174,7 +181,7 @@ class RefineSection(Section):
                 api.set_refinement(obj, item.text())
                 macro.set_refinement(obj, value=item.text())
         except InvalidInput as error:
-            self._panel.tell(str(error), error=True)
+            self._refuse(error)
         self.show_refinements(obj)
         self._panel.changed()
 
@@ -216,7 +223,7 @@ class RefineSection(Section):
                 now = option_table.without_defaults({**before, **rest})
                 option_table.write(panel.obj, now)
         except InvalidInput as error:
-            panel.tell(str(error), error=True)
+            self._refuse(error)
             return
         for obj in made:
             macro.refined(obj, panel.obj)

@@ -34,7 +34,7 @@ def is_dark(widget):
 
 
 class RunSection(QtGui.QWidget):
-    """progress, time, `best` (a button), status, `tries` (buttons after a refusal), log."""
+    """progress, time, `best` (a button), status, `tries` (buttons after a refusal): as far as there is something to tell. The panel places `log_fold`."""
 
     def __init__(self):
         super().__init__()
@@ -58,14 +58,17 @@ class RunSection(QtGui.QWidget):
         self.log.setReadOnly(True)
         self.log.setMinimumSize(60, 110)
         self.log_fold.body.addWidget(self.log)
-        row = QtGui.QHBoxLayout()
+        self._row = QtGui.QWidget()
+        row = QtGui.QHBoxLayout(self._row)
+        row.setContentsMargins(0, 0, 0, 0)
         row.addWidget(self.progress)
         row.addWidget(self.time)
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.addLayout(row)
-        for widget in (self.status, self.tries, self.best, self.log_fold):
+        for widget in (self._row, self.status, self.tries, self.best):
             layout.addWidget(widget)
+        self._row.setVisible(False)
+        self.status.setVisible(False)
         self._layout_number, self._found = 0, ""
         self._typical = None
 
@@ -74,6 +77,7 @@ class RunSection(QtGui.QWidget):
         self.progress.setValue(0)
         self._layout_number, self._found = 0, ""
         self._typical = typical
+        self._row.setVisible(True)
         self.offer([])
         self.tell(words)
 
@@ -101,6 +105,7 @@ class RunSection(QtGui.QWidget):
         """The one line for the user."""
         self.status.setStyleSheet("color: {}".format(_ERROR[is_dark(self.log)]) if error else "")
         self.status.setText(text)
+        self.status.setVisible(bool(text))
 
     def write(self, seconds, text, error=False):
         """A line of the log."""

@@ -3,7 +3,7 @@
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from . import prediction, shapes
+from . import fields, prediction, shapes
 from .errors import Cancelled, InvalidInput, PolycubeError
 from .words import count, tr
 
@@ -55,6 +55,8 @@ class SizeHint(QtGui.QWidget):
             return
         if expected:
             cells = tr("about {} cells").format(count(_rounded(expected.cells)))
+            if not panel.is_meshed_as_is() and not any(options.get(name) for name in fields.FINENESS):
+                cells = tr("{} or more, where edges are short").format(cells)
             if expected.cells > 1.5 * expected.plain:
                 cells = tr("up to {}, {} without local sizes").format(cells, count(_rounded(expected.plain)))
             lines.append(cells)

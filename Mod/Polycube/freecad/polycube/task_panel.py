@@ -77,7 +77,7 @@ class MeshPanel:
         self.result.show_mesh()
         self.changed()
         FreeCAD.addDocumentObserver(self)
-        QtCore.QTimer.singleShot(0, _narrow_buttons)
+        QtCore.QTimer.singleShot(0, _prepare_buttons)
 
     def _make_form(self):
         form = QtGui.QWidget()
@@ -120,7 +120,7 @@ class MeshPanel:
         self.result = ResultSection(self)
         layout = QtGui.QVBoxLayout(form)
         layout.setContentsMargins(0, 0, 0, 0)
-        for widget in (form.parameters, form.run, self.result):
+        for widget in (form.run, form.parameters, self.result, form.run.log_fold):
             layout.addWidget(widget)
         return form
 
@@ -213,6 +213,7 @@ class MeshPanel:
             self._before = option_table.read(self.obj) if self.obj else {}
         except InvalidInput as error:
             self.tell(str(error), error=True)
+            self._show_run()
             return
         if self._nothing_has_changed():
             self.tell(tr("Nothing has changed since this mesh was made."))
@@ -277,6 +278,8 @@ class MeshPanel:
             self._fail(error)
             return
         MeshPanel._running = self
+        if what == "mesh":
+            self._show_run()
         self.form.parameters.setEnabled(False)
         self.form.run.begin("{} {} ...".format(words, self.part.Label), typical.seconds(self.obj, shape) if what == "mesh" else None)
         self.log("{} {} ...".format(words, self.part.Label))
@@ -342,6 +345,7 @@ class MeshPanel:
             self.look_at(error.entities)
             self.form.run.offer(self._ways_out(error.stage))
         self.form.run.tell(text, error=True)
+        self._show_run()
 
     def _ways_out(self, stage):
         """Buttons for what may help: each sets an option and meshes again, the axes are shown to be clicked at."""
@@ -400,11 +404,13 @@ class MeshPanel:
             self._taking = False
         self.form.progress.setValue(100)
         for line in warnings:
-            self.log(tr("Warning: ") + line, error=True)
+            self._write(tr("Warning: ") + line, error=True)
         text = tr("Meshed: {} cells, {} nodes, worst cell {:.2f}.").format(count(len(result.hexes)), count(len(result.nodes)), self.obj.MinScaledJacobian)
         if warnings:
             text += " " + (warnings[0] if len(warnings) == 1 else tr("{} warnings, see the log: {} ...").format(len(warnings), warnings[0]))
-        self.tell(text)
+        self.form.run.tell(text)
+        self._write(text)
+        FreeCAD.Console.PrintMessage("Polycube: {}\n".format(text))
 
     def _put(self, result, mesh):
         """Object, mesh and place in the analysis; returns warnings."""
@@ -541,8 +547,16 @@ class MeshPanel:
         self.form.run.tell(text, error)
         self.log(text, error)
 
-    def log(self, text, error=False):
+    def _show_run(self):
+        """Scrolls to what tells of the run, at the top of the panel, once it has its place."""
+        QtCore.QTimer.singleShot(0, lambda: self._form and _scroll_up(self._form.run))
+
+    def _write(self, text, error=False):
         self.form.run.write(time.monotonic() - self.started if self.started else None, text, error)
+
+    def log(self, text, error=False):
+        """A line in the panel's log; an error is one in FreeCAD's report view too."""
+        self._write(text, error)
         (print_error if error else FreeCAD.Console.PrintLog)("Polycube: {}\n".format(text))
 
     def changed(self):
@@ -580,16 +594,17 @@ class MeshPanel:
             shape = shapes.shape_of(self.part)
         except InvalidInput:
             return None
-        if self._has_current_mesh():
+        if self.is_meshed_as_is():
             return prediction.predict_again(shape, options, json.loads(self.obj.MeshedOptions), self.obj.Hexahedra)
         return prediction.predict(shape, options)
 
-    def _has_current_mesh(self):
+    def is_meshed_as_is(self):
+        """Whether the mesh there is is one of the part as it is now, with whatever options."""
         return self.mesh_exists() and bool(self.obj.Hexahedra) and objects.shape_is_meshed(self.obj)
 
     def is_meshed_with(self, options):
         """Whether the mesh there is is one of the part as it is now with these options."""
-        return self._has_current_mesh() and json.loads(self.obj.MeshedOptions) == json.loads(json.dumps(options))
+        return self.is_meshed_as_is() and json.loads(self.obj.MeshedOptions) == json.loads(json.dumps(options))
 
     def asked(self):
         """The options as the panel shows them, with what the refinements ask for. InvalidInput for what cannot be read."""
@@ -607,8 +622,17 @@ class MeshPanel:
         return found
 
 
-def _narrow_buttons():
+def _scroll_up(widget):
+    """Shows the top of the panel with this widget. Looked for from above: PySide takes a widget for gone when the parent goes that it was asked for, though that is but a name for what lives on."""
+    for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
+        if area.isAncestorOf(widget):
+            area.verticalScrollBar().setValue(0)
+
+
+def _prepare_buttons():
     """OK, Cancel and Apply of FreeCAD's width, with icons, are wider than the dock as it opens it: they may shrink to their text.
+
+    Enter presses Apply, not OK, which would close the panel over a size that was just typed.
 
     FreeCAD would hand the box to `modifyStandardButtons`, but as what PySide does not notice the end of; see MeshPanel.
     """
@@ -619,6 +643,7 @@ def _narrow_buttons():
             button.setIcon(QtGui.QIcon())
             button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
             button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
+            button.setDefault(button is box.button(QtGui.QDialogButtonBox.Apply))
 
 
 def _agreed(question):

@@ -125,6 +125,7 @@ class Refusal(AidsTest):
         if before:
             self.assertLess(near, 0.7 * before, "an edge fills the view")
             self.assertNotEqual(camera.height.getValue(), before)
+        self.assertRegex(panel.form.status.text(), r"^Refused: Moving nodes onto the CAD: 12 cells stay inverted \(Face3\)\. Try a finer size")
         self.assertEqual(list(ways), ["A finer size", "More effort", "Smooth edges given up"])
         for text, name, value in (("More effort", "effort", "thorough"), ("Smooth edges given up", "feature_angle", 15.0), ("A finer size", "size", 1.8)):
             mouse(self.refuse("fit")[text], QtCore.QPoint(5, 5))
@@ -203,6 +204,41 @@ class ToSee(AidsTest):
         picture("lost-edges")
         result.lost.setChecked(False)
         self.assertEqual(scene.getNumChildren(), before)
+
+    def test_beside_the_clip_plane_of_freecad(self):
+        """FreeCAD's own clip plane and the panel's cut, cells and colours leave each other alone."""
+        panel, view = self.panel, FreeCADGui.activeDocument().activeView()
+        self.apply(panel)
+        plain = view.getSceneGraph().getNumChildren()
+        view.toggleClippingPlane()
+        clipped = view.getSceneGraph().getNumChildren()
+        self.assertTrue(view.hasClippingPlane())
+        panel.result.colours.setChecked(True)
+        panel.result.cut.setCurrentIndex(1)
+        picture("clip-plane")
+        view.toggleClippingPlane()
+        self.assertFalse(view.hasClippingPlane())
+        view.toggleClippingPlane()
+        self.press("Ok")
+        self.assertTrue(view.hasClippingPlane())
+        self.assertEqual(view.getSceneGraph().getNumChildren(), clipped)
+        view.toggleClippingPlane()
+        self.assertEqual(view.getSceneGraph().getNumChildren(), plain)
+
+    def test_axes_and_cells_do_not_stand_in_one_place(self):
+        panel = self.panel
+        self.apply(panel)
+        panel.result.cut.setCurrentIndex(1)
+        self.assertIsNotNone(panel.result._cell_overlay)
+        panel.axes.preview.setChecked(True)
+        self.assertIsNone(panel.result._cell_overlay)
+        self.assertEqual(panel.result.cut.currentIndex(), 0)
+        self.settle()
+        panel.result.blocks.setChecked(True)
+        self.assertFalse(panel.axes.preview.isChecked())
+        self.assertIsNone(panel.axes.overlay)
+        self.assertIsNotNone(panel.result._cell_overlay)
+        self.press("Ok")
 
     def test_numbers_as_text(self):
         for numbers in ([], [3], [3, 3, 7, 3], list(range(20)) + [5] * 1000):

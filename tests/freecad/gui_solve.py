@@ -69,6 +69,35 @@ class Solve(GuiTest):
         self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
+    def test_beside_the_result_display_of_freecad(self):
+        """FreeCAD's own panel of results opens and paints after the panel of the mesh was open with colours and a cut, and the other way round."""
+        if not ccx.find():
+            self.skipTest(ccx.MISSING)
+        with mock.patch.object(QtGui.QMessageBox, "information"):
+            FreeCADGui.runCommand(commands.Solve.Name)
+        (result,) = self.results()
+        mesh = self.document.PolycubeMesh
+        for _ in range(2):
+            shown = result.Mesh.ViewObject.isVisible()  # FreeCAD hides it when its panel is closed
+            panel = self.caught(lambda: mesh.ViewObject.Proxy.doubleClicked(mesh.ViewObject))
+            self.assertEqual((mesh.ViewObject.isVisible(), result.Mesh.ViewObject.isVisible()), (True, False), "they stand in the same place")
+            panel.result.colours.setChecked(True)
+            panel.result.cut.setCurrentIndex(1)
+            self.press("Ok")
+            self.assertEqual((mesh.ViewObject.isVisible(), result.Mesh.ViewObject.isVisible()), (False, shown))
+            result.ViewObject.Proxy.doubleClicked(result.ViewObject)
+            process_events(0.3)
+            (radio,) = [radio for radio in FreeCADGui.getMainWindow().findChildren(QtGui.QRadioButton) if radio.objectName() == "rb_vm_stress"]
+            radio.click()
+            process_events(0.2)
+            picture("result-display")
+            self.assertTrue(FreeCADGui.Control.activeDialog())
+            self.assertTrue(result.Mesh.ViewObject.isVisible())
+            FreeCADGui.Control.closeDialog()
+            FreeCADGui.activeDocument().resetEdit()
+            process_events(0.2)
+        self.assertGreater(max(result.vonMises), 0)
+
     def test_an_analysis_that_was_made_after_the_mesh(self):
         mesh = self.box.Document.PolycubeMesh
         polycube.set_analysis(mesh, None)

@@ -20,6 +20,11 @@ def other_meshes(analysis, mesh=None):
     return [obj for obj in found if getattr(getattr(obj, "Proxy", None), "Type", "") != "Fem::MeshResult"]
 
 
+def result_meshes(analysis):
+    """The meshes that results of an analysis are shown on."""
+    return [obj.Mesh for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj.Mesh]
+
+
 def move(mesh, analysis):
     """Has the mesh in this analysis and in no other; in none where it is None."""
     for other in of(mesh.Document):

@@ -66,6 +66,7 @@ class AxesSection(Section):
         panel = self._panel
         if not panel.part_exists():
             return
+        panel.result.show_whole()
         self._mesh_was_visible = panel.mesh_exists() and panel.obj.ViewObject.isVisible()
         panel.show_part()
         if panel.mesh_exists():

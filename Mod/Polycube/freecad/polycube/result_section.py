@@ -217,6 +217,7 @@ class ResultSection(Section):
         if not self._panel.mesh_exists():
             return
         index = int(self.worst.item(row, 0).text()) - 1
+        self._panel.axes.preview.setChecked(False)
         with busy():
             cells = self.cells()
             chosen = cells.numbers == index + 1
@@ -234,6 +235,7 @@ class ResultSection(Section):
         if bar is None and axis < 0 and not self.below.isChecked() and not self.blocks.isChecked():
             self._end_cells()
             return
+        self._panel.axes.preview.setChecked(False)  # it stands in the same place
         with busy():
             cells = self.cells()
             chosen = cells.numbers >= 0
@@ -302,7 +304,6 @@ class ResultSection(Section):
     def clear(self):
         """No mark of the mesh is left in the 3D view."""
         self._updating = True
-        self._waiting.clear()
         self._end_cells()
         self._show_lost(False)
         if self._panel.mesh_exists():
@@ -312,11 +313,20 @@ class ResultSection(Section):
             if self.colours.isChecked():
                 view.resetNodeColor()
         self.worst.clearSelection()
+        self.lost.setChecked(False)
+        self.colours.setChecked(False)
+        self.show_whole()
+
+    def show_whole(self):
+        """No cells by themselves."""
+        self._updating = True
         self.histogram.choose(None)
-        for box in (self.colours, self.blocks, self.below, self.lost):
-            box.setChecked(False)
+        self.blocks.setChecked(False)
+        self.below.setChecked(False)
         self.cut.setCurrentIndex(0)
         self._updating = False
+        self._waiting.clear()
+        self._end_cells()
 
 
 class _Ended(Exception):

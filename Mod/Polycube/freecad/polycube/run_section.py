@@ -27,6 +27,11 @@ _PLAN = re.compile(r"plan (\d+), '.*', \d+ fits done, (?:best: '.*', (\d+) CAD e
 _ERROR = {False: "#b00020", True: "#ff8a80"}
 
 
+def stage_words(stage):
+    """What the mesher does in a stage, as users understand it."""
+    return tr(_STAGES[stage]) if stage in _STAGES else stage
+
+
 def is_dark(widget):
     """Whether letters are brighter than what they stand on."""
     palette = widget.palette()
@@ -115,7 +120,7 @@ class RunSection(QtGui.QWidget):
 
     def show_progress(self, stage, fraction):
         self.progress.setValue(round(100 * fraction))
-        words = tr(_STAGES[stage]) if stage in _STAGES else stage
+        words = stage_words(stage)
         if self._layout_number > 1 or self._found:
             words = tr("Layout {}: {}").format(self._layout_number, words)
         self.tell(words + " ..." + ("\n" + self._found if self._found else ""))

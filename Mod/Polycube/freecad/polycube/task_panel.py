@@ -18,7 +18,7 @@ from .folding import Section
 from .refine_section import RefineSection
 from .result_section import ResultSection
 from .run import LiveSession, Run
-from .run_section import RunSection
+from .run_section import RunSection, stage_words
 from .size_hint import SizeHint
 from .words import count, noop, tr
 
@@ -64,6 +64,7 @@ class MeshPanel:
         self.process = None  # the Run or Request, while there is one
         self._session = None  # the LiveSession, once labels or a count were asked for
         self.started = 0.0
+        self._shown_before = None  # what show_mesh_alone() has changed: whether the mesh was shown, and the meshes of results that were
         self._taking = False
         self._filling = True
         self._meshed_options, self._asked, self._meshed_shape, self._before = {}, {}, [], {}
@@ -340,7 +341,8 @@ class MeshPanel:
         if isinstance(error, Cancelled):
             text = text[0].upper() + text[1:] + "."
         elif isinstance(error, StageFailed):
-            text = tr("Refused: {}.").format(text) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
+            reason = text.split(": ", 1)[-1] if text.startswith(error.stage + ":") else text
+            text = tr("Refused: {}.").format("{}: {}".format(stage_words(error.stage), reason)) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
             self.select(error.entities)
             self.look_at(error.entities)
             self.form.run.offer(self._ways_out(error.stage))
@@ -392,6 +394,7 @@ class MeshPanel:
                 raise PolycubeError(tr("the part is gone"))
             self.axes.preview.setChecked(False)
             self.result.clear()
+            self._shown_before = None
             warnings = self._put(result, mesh)
             self._breathe(1.0)
             if not self.mesh_exists() or self._form is None:
@@ -460,6 +463,7 @@ class MeshPanel:
             self._session.close()
         self.axes.end()
         self.result.clear()
+        self._show_as_before()
 
     def _close(self):
         gui_document = FreeCADGui.getDocument(self.document_name) if self.document_is_open() else None
@@ -522,6 +526,26 @@ class MeshPanel:
         self.obj.ViewObject.show()
         if self.part_exists():
             shapes.solid_object(self.part).ViewObject.hide()  # not its container, the mesh may be in that too
+
+    def show_mesh_alone(self):
+        """The mesh, without results that stand in the same place, until the panel is closed without a new mesh."""
+        if self._form is None or not self.mesh_exists():
+            return
+        analysis = objects.analysis_of(self.obj)
+        results = [mesh for mesh in analyses.result_meshes(analysis) if mesh.ViewObject.isVisible()] if analysis else []
+        self._shown_before = self.obj.ViewObject.isVisible(), results
+        for mesh in results:
+            mesh.ViewObject.hide()
+        self.obj.ViewObject.show()
+
+    def _show_as_before(self):
+        if not self._shown_before or not self.document_is_open() or not self.mesh_exists():
+            return
+        was_shown, results = self._shown_before
+        if not was_shown:
+            self.obj.ViewObject.hide()
+        for mesh in filter(_exists, results):
+            mesh.ViewObject.show()
 
     def select(self, entities):
         """Shows CAD entities in the 3D view."""

@@ -47,8 +47,9 @@ class PolycubeMeshView(objects.Stateless):
 
         if mode != 0:
             return False
-        FreeCADGui.Control.showDialog(MeshPanel(objects.part_of(view.Object), view.Object))
-        QtCore.QTimer.singleShot(0, lambda: _after_double_click(view.Object))
+        panel = MeshPanel(objects.part_of(view.Object), view.Object)
+        FreeCADGui.Control.showDialog(panel)
+        QtCore.QTimer.singleShot(0, lambda: _after_double_click(panel))
         return True
 
     def unsetEdit(self, view, mode=0):
@@ -71,11 +72,8 @@ class PolycubeMeshView(objects.Stateless):
         return QtGui.QMessageBox.warning(window, "Hexahedral mesh", question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
 
 
-def _after_double_click(obj):
-    """Shows the mesh, in no undo step. FreeCAD leaves a transaction "Edit" open as long as something is edited, which all that the panel does would be part of."""
+def _after_double_click(panel):
+    """Shows the mesh by itself, in no undo step. FreeCAD leaves a transaction "Edit" open as long as something is edited, which all that the panel does would be part of."""
     if FreeCAD.getActiveTransaction():
         FreeCAD.closeActiveTransaction(True)
-    try:
-        obj.ViewObject.show()
-    except (ReferenceError, RuntimeError, AttributeError):  # it is gone already
-        pass
+    panel.show_mesh_alone()

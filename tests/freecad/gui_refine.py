@@ -5,7 +5,7 @@ from unittest import mock
 import FreeCAD
 import FreeCADGui
 import gui_panel
-from gui_support import mouse, picture, process_events
+from gui_support import mouse, picture, process_events, set_panel_width
 from PySide import QtCore, QtGui
 
 from freecad.polycube import macro, objects, option_table, refinements
@@ -128,6 +128,21 @@ class FromTheSelection(RefineTest):
         self.apply(panel)
         self.assertEqual(panel.obj.MeshState, objects.CURRENT, panel.form.log.toPlainText())
         self.assertGreater(panel.obj.Hexahedra, before)
+        self.press("Ok")
+
+    def test_values_are_in_sight_in_a_narrow_dock(self):
+        panel = self.meshed()
+        for names, kind in ((("Face1", "Face2", "Face3"), "size"), (("Edge1", "Edge2"), "divisions"), (("Face1", "Edge1", "Vertex1"), "levels")):
+            self.choose(*names)
+            self.add(panel, kind)
+        set_panel_width(280)
+        process_events(0.3)
+        table = panel.refine.table
+        for row in range(table.rowCount()):
+            self.assertLessEqual(table.visualItemRect(table.item(row, 2)).right(), table.viewport().width())
+            self.assertEqual(table.item(row, 1).toolTip(), table.item(row, 1).text())
+        self.assertEqual(table.horizontalScrollBar().maximum(), 0)
+        picture("narrow-refinements")
         self.press("Ok")
 
     @staticmethod

@@ -49,7 +49,9 @@ class RefineSection(Section):
         self.table.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
         self.table.setSelectionMode(QtGui.QAbstractItemView.SingleSelection)
         self.table.verticalHeader().setVisible(False)
-        self.table.horizontalHeader().setStretchLastSection(True)
+        for column in (_WHAT, _WHERE):  # the value is to be seen in a narrow dock; tooltips have the rest
+            self.table.horizontalHeader().setSectionResizeMode(column, QtGui.QHeaderView.Stretch)
+        self.table.horizontalHeader().setSectionResizeMode(_VALUE, QtGui.QHeaderView.ResizeToContents)
         self.table.setItemDelegateForColumn(_VALUE, _ValueEditor(self))
         self.add_button = QtGui.QToolButton()
         self.add_button.setText(tr("Add"))
@@ -98,11 +100,10 @@ class RefineSection(Section):
                 value.setFlags(QtCore.Qt.ItemIsEnabled | QtCore.Qt.ItemIsSelectable)
             wrong = refinements.fault(obj)
             for column, item in enumerate((what, where, value)):
-                item.setToolTip(wrong)
+                item.setToolTip(wrong or item.text())
                 if wrong:
                     item.setIcon(self.style().standardIcon(QtGui.QStyle.SP_MessageBoxWarning) if column == _WHAT else QtGui.QIcon())
                 self.table.setItem(row, column, item)
-        self.table.resizeColumnsToContents()
         self._filling = False
         if chosen in found:
             self.set_open(True)

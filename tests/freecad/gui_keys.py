@@ -36,8 +36,15 @@ class KeysTest(gui_panel.PanelTest):
         process_events(0.1)
         return widget
 
+    @staticmethod
+    def area_of(widget):
+        """What the widget is scrolled in, None of the buttons of FreeCAD 1.x."""
+        return next((area for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if area.isAncestorOf(widget)), None)
+
     def is_in_sight(self, widget):
-        area = next(area for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if area.isAncestorOf(widget))
+        area = self.area_of(widget)
+        if area is None:
+            return widget.isVisible()
         top = area.viewport().mapToGlobal(QtCore.QPoint(0, 0)).y()
         place = widget.mapToGlobal(QtCore.QPoint(0, 0)).y()
         return widget.isVisible() and top <= place and place + widget.height() <= top + area.viewport().height()
@@ -74,7 +81,7 @@ class Keys(KeysTest):
         panel = self.open_panel(self.box)
         panel.field("size").value = 0.4
         self.press("Apply")
-        area = next(area for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if area.isAncestorOf(panel.form))
+        area = self.area_of(panel.form)
         area.setFocus()
         press(QtCore.Qt.Key_Escape)
         self.assertTrue(wait_until(lambda: not panel.process, 10))
@@ -95,7 +102,7 @@ class InSight(KeysTest):
         for section in (panel.axes, panel.refine, panel.advanced):
             section.set_open(True)
         process_events()
-        area = next(area for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if area.isAncestorOf(panel.form))
+        area = self.area_of(panel.form)
         area.verticalScrollBar().setValue(area.verticalScrollBar().maximum())
         process_events()
         panel.apply()

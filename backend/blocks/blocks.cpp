@@ -191,7 +191,7 @@ class Assembly {
         Block& block = complex_.blocks[high];
         if (low >= 0) {
           if (boxes_[f.low].plane[f.axis][1] != f.plane || f.area < 0.5 * side_area(block, f.high, f.axis)) continue;
-          block.neighbours[2 * f.axis] = low;
+          block.neighbours[low_side(f.axis)] = low;
           complex_.blocks[low].neighbours[2 * f.axis + 1] = high;
         } else {
           for (auto [chart, area] : charts_in[f.low]) {
@@ -199,7 +199,7 @@ class Assembly {
             const double weight = std::min(-area, f.area);
             if (weight <= best[high][f.axis]) continue;
             best[high][f.axis] = weight;
-            block.side_chart[2 * f.axis] = chart;
+            block.side_chart[low_side(f.axis)] = chart;
           }
         }
       }
@@ -207,7 +207,7 @@ class Assembly {
     for (std::size_t b = 0; b < complex_.blocks.size(); ++b) {
       Block& block = complex_.blocks[b];
       for (int d = 0; d < 3; ++d) {
-        if (block.neighbours[2 * d] >= 0) block.side_chart[2 * d] = -1;
+        if (block.neighbours[low_side(d)] >= 0) block.side_chart[low_side(d)] = -1;
         if (block.neighbours[2 * d + 1] < 0) block.side_chart[2 * d + 1] = boxes_[component_of_[b]].chart[d][1];
       }
     }
@@ -291,9 +291,9 @@ class Assembly {
       const int d = face[0];
       for (std::size_t i = 0; i < std::min(blocks[0].size(), blocks[1].size()); ++i) {
         Block &high = complex_.blocks[blocks[0][i]], &low = complex_.blocks[blocks[1][i]];
-        high.neighbours[2 * d] = blocks[1][i];
+        high.neighbours[low_side(d)] = blocks[1][i];
         low.neighbours[2 * d + 1] = blocks[0][i];
-        high.side_chart[2 * d] = low.side_chart[2 * d + 1] = -1;
+        high.side_chart[low_side(d)] = low.side_chart[2 * d + 1] = -1;
       }
     }
   }

@@ -17,6 +17,9 @@ struct Block {
 };
 
 /// A connected component of a chart's plane cut through the solid, with the charts it touches.
+/// A block's side at the low end of an axis; that at the high end is the next.
+constexpr int low_side(int axis) { return 2 * axis; }
+
 struct Sheet {
   int axis = 0;
   int unknown = 0;          ///< chart that stands for all charts that must get the same integer as this sheet

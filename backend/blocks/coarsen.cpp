@@ -67,7 +67,7 @@ Coarse coarsen(const std::vector<Block>& fine, const std::vector<BlockPlanes>& p
   UnionFind merged(fine.size());
   for (int b = 0; b < count; ++b) {
     for (int axis = 0; axis < 3; ++axis) {
-      const int below = fine[b].neighbours[2 * axis];
+      const int below = fine[b].neighbours[low_side(axis)];
       if (below >= 0 && number[sheet_of.find(face(b, 2 * axis))] < 0) merged.unite(below, b);
     }
   }

@@ -232,6 +232,7 @@ class ConformalBuilder {
  public:
   static ConformalModel make(const Assembly& assembly, const std::vector<int>& chosen, const Monitor& monitor) {
     std::vector<CadModel> before;
+    before.reserve(chosen.size());
     for (const int s : chosen) before.push_back(assembly.solids.at(static_cast<std::size_t>(s) - 1));
     GeneralFuse fuse(before, monitor);
     TopoDS_Compound compound;

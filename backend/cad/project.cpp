@@ -223,7 +223,7 @@ EdgePoint nearest_on_edge(const EdgeGeometry& edge, const Vec3& p, const double*
   if (const gp_Circ* circle = std::get_if<gp_Circ>(&edge.closed_form))
     return at_parameter(edge, p, clamp_periodic(edge, ElCLib::Parameter(*circle, to_pnt(p))));
   if (seed) {
-    const EdgePoint found = newton_edge(edge, p, clamp_periodic(edge, *seed), edge.first, edge.last);
+    EdgePoint found = newton_edge(edge, p, clamp_periodic(edge, *seed), edge.first, edge.last);
     if (!edge.closed || (found.t > edge.first && found.t < edge.last)) return found;
     const EdgePoint beyond = newton_edge(edge, p, found.t > edge.first ? edge.first : edge.last, edge.first, edge.last);
     return beyond.distance < found.distance ? beyond : found;

@@ -114,7 +114,7 @@ TopoDS_Edge first_open_edge(const TopoDS_Shape& shape) {
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
   for (int i = 1; i <= faces_of.Extent(); ++i) {
-    const TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
+    TopoDS_Edge edge = TopoDS::Edge(faces_of.FindKey(i));
     if (faces_of(i).Extent() < 2 && !BRep_Tool::Degenerated(edge)) return edge;
   }
   return {};

@@ -300,19 +300,17 @@ int guarded(const Work& work) {
 /// Checks the command here and runs it in a process of its own.
 template <class Command>
 int supervised(const Command& command, Monitor::Clock::time_point start) {
-  return guarded([&] {
-    const Supervision supervision = command.check(start);
-    const auto work = [&](StageNote& note) {
-      return guarded([&] {
-        Monitor monitor;
-        monitor.set_deadline(supervision.deadline);
-        const Console console(monitor, note, command.verbose);
-        command.run(monitor, start);
-        return static_cast<int>(kDone);
-      });
-    };
-    return supervise(work, supervision);
-  });
+  const Supervision supervision = command.check(start);
+  const auto work = [&](StageNote& note) {
+    return guarded([&] {
+      Monitor monitor;
+      monitor.set_deadline(supervision.deadline);
+      const Console console(monitor, note, command.verbose);
+      command.run(monitor, start);
+      return static_cast<int>(kDone);
+    });
+  };
+  return supervise(work, supervision);
 }
 
 int run(int argc, char** argv) {
@@ -335,14 +333,14 @@ int run(int argc, char** argv) {
   if (mesh_command.command.parsed()) return supervised(mesh_command, start);
   if (label_command.command.parsed()) return supervised(label_command, start);
   if (hex_command.command.parsed()) return supervised(hex_command, start);
-  return guarded([&]() -> int {
-    if (job_command.command.parsed()) return serve_job(job_command.folder, job_kind(job_command.kind));
-    if (describe_command->parsed()) std::cout << describe_engine();
-    return kDone;
-  });
+  if (job_command.command.parsed()) return serve_job(job_command.folder, job_kind(job_command.kind));
+  if (describe_command->parsed()) std::cout << describe_engine();
+  return kDone;
 }
 
 }  // namespace
 }  // namespace polycube
 
-int main(int argc, char** argv) { return polycube::run(argc, argv); }
+int main(int argc, char** argv) {
+  return polycube::guarded([&] { return polycube::run(argc, argv); });
+}

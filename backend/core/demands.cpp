@@ -52,7 +52,7 @@ void for_items(const std::string& flag, const std::string& text, const char* for
     const auto equals = item.find('=');
     const std::string_view all = item;
     if (equals == std::string::npos || !read(all.substr(0, equals), all.substr(equals + 1)))
-      throw InvalidInput(flag + ": '" + item + "' is not of the form " + form);
+      throw InvalidInput(std::string(flag).append(": '").append(item).append("' is not of the form ").append(form));
   }
 }
 
@@ -181,7 +181,7 @@ FaceList parse_faces(const std::string& flag, const std::string& text) {
   std::istringstream items(dense);
   for (std::string item; std::getline(items, item, ',');) {
     const auto face = entity(item, "Face");
-    if (!face) throw InvalidInput(flag + ": '" + item + "' is not of the form Face3");
+    if (!face) throw InvalidInput(std::string(flag).append(": '").append(item).append("' is not of the form Face3"));
     faces.push_back(*face);
   }
   std::sort(faces.begin(), faces.end());

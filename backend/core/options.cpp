@@ -124,6 +124,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
 
 void set(MeshOptions& options, const OptionSpec& option, const std::string& text) {
   std::visit(Overloaded{
@@ -350,7 +352,7 @@ void check(const MeshOptions& options) {
       if (word.empty() || std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end()) continue;
       std::string all;
       for (const std::string& choice : option.choices) all += (all.empty() ? "" : ", ") + choice;
-      throw InvalidInput(flag(option.name) + ": '" + word + "' is not one of " + all);
+      throw InvalidInput(flag(option.name).append(": '").append(word).append("' is not one of ").append(all));
     }
   }
   if ((options.size > 0) + (options.hexes > 0) + options.coarsest > 1) throw InvalidInput("give only one of --size, --hexes and --coarsest");

@@ -16,7 +16,7 @@ struct CadRef {
   int dim = 3;
   int id = 1;
   friend bool operator==(const CadRef&, const CadRef&) = default;
-  friend auto operator<=>(const CadRef&, const CadRef&) = default;
+  friend auto operator<=>(const CadRef&, const CadRef&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 }  // namespace polycube

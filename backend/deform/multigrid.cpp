@@ -97,7 +97,7 @@ Multigrid& Multigrid::compute(SparseRows matrix) {
     const int count = *std::max_element(group.begin(), group.end()) + 1;
     if (count > kLeastGain * static_cast<double>(matrix.rows())) break;
     Level& level = levels_.emplace_back();
-    level.matrix = std::move(matrix);
+    level.matrix.swap(matrix);
     level.diagonal = level.matrix.diagonal();
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(group.size());

@@ -16,7 +16,7 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 class Multigrid {
  public:
   Multigrid() = default;
-  explicit Multigrid(SparseRows matrix) { compute(std::move(matrix)); }
+  explicit Multigrid(const SparseRows& matrix) { compute(matrix); }
   Multigrid(const Multigrid&) = delete;
   Multigrid& operator=(const Multigrid&) = delete;
 

@@ -224,7 +224,7 @@ const Determinants& Curving::straight(int h) {
 
 /// Where a step leads that is bent onto the node's support.
 Vec3 Curving::moved(int e, const Vec3& step, Support& support) const {
-  const Vec3 to = node(e) + step;
+  Vec3 to = node(e) + step;
   support = supports_[e];
   if (support.entity.dim == 1) {
     const EdgePoint foot = model_.project_to_edge(support.entity.id, to, &supports_[e].at[0]);

@@ -83,14 +83,14 @@ HexPlaces curved_places(const std::vector<Vec3>& points, const Hex20& hex) {
 Determinants determinants(const HexPlaces& places) {
   const Eigen::Matrix<double, 3, 3 * kPoints> jacobians = places * gradients();
   Determinants result;
-  for (int p = 0; p < kPoints; ++p) result[p] = jacobians.middleCols<3>(3 * p).determinant();
+  for (Eigen::Index p = 0; p < kPoints; ++p) result[p] = jacobians.middleCols<3>(3 * p).determinant();
   return result;
 }
 
 Determinants determinants(const HexPlaces& places, int node, DeterminantSlopes& slopes) {
   const Eigen::Matrix<double, 3, 3 * kPoints> jacobians = places * gradients();
   Determinants result;
-  for (int p = 0; p < kPoints; ++p) {
+  for (Eigen::Index p = 0; p < kPoints; ++p) {
     const Vec3 r = jacobians.col(3 * p), s = jacobians.col(3 * p + 1), t = jacobians.col(3 * p + 2);
     const Vec3 cofactor = s.cross(t);
     result[p] = r.dot(cofactor);

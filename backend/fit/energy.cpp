@@ -256,7 +256,7 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
       Vec3 sum = Vec3::Zero();
       for (int k = graph_.first[v]; k < graph_.first[v + 1]; ++k) {
         const int at = slot_[graph_.corners[k] / 8];
-        if (at >= 0) sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 24 * static_cast<std::size_t>(at) + 3 * (graph_.corners[k] % 8));
+        if (at >= 0) sum += Eigen::Map<const Vec3>(corner_gradient_.data() + 3 * (8 * static_cast<std::size_t>(at) + graph_.corners[k] % 8));
       }
       gradient[i] = entities_.along(v, sum, steps[i]);
     }

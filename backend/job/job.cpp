@@ -227,7 +227,7 @@ void serve_session(const std::string& folder) {
     std::istringstream words(line);
     std::string name, kind = "mesh";
     words >> name >> kind;
-    const std::string own = folder + "/" + name;
+    const std::string own = std::string(folder).append("/").append(name);
     const int status = attempt(own, [&] {
       const MeshOptions options = options_from_json(read_text(own + "/options.json"));
       Monitor monitor;

@@ -19,7 +19,7 @@ struct LabelVariant {
   double strictness = LabelOptions{}.strictness;
   double widest_bend = LabelOptions{}.widest_bend;
   bool narrow_regions = false;
-  friend auto operator<=>(const LabelVariant&, const LabelVariant&) = default;
+  friend auto operator<=>(const LabelVariant&, const LabelVariant&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// What the search for labels begins with, for faces treated alike: where nothing is wrong with its labels, those of other ways of repair are the same.

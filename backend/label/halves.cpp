@@ -41,7 +41,7 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
     const int f = s_.mesh.triangle_face[t];
     const Triangle& tri = s_.mesh.triangles[t];
     if (s_.has_tip(f)) {
-      half_[t] = s_.tips->upper[t];
+      half_[t] = s_.tips->upper[t] != 0 ? 1 : 0;
     } else if (s_.cuts[f].thirds) {
       half_[t] =
           third_at(s_.frame * s_.model.face(f).axis, s_.frame * ((s_.mesh.points[tri[0]] + s_.mesh.points[tri[1]] + s_.mesh.points[tri[2]]) / 3) - centre_[f]);

@@ -290,7 +290,8 @@ std::vector<int> join_halves(const RegionGraph& graph, const Split& split, const
 
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
 std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& joined) {
-  const auto& [s, half, barrels, split, graph, region_label, left] = plan;
+  const auto& [setup, half, barrels, split, graph, region_label, left] = plan;
+  const auto& s = setup;
   const Halves& halves = *half;
   std::vector<BorderFunction> result, half_way;
   std::set<std::pair<int, int>> done;

@@ -27,6 +27,7 @@ std::optional<StageFailed> unrealisable(const LabelledPart& part) {
     for (int t : charts[c].triangles) faces.insert(part.tets.triangle_face[t]);
   }
   std::vector<CadRef> at;
+  at.reserve(faces.size());
   for (int f : faces) at.push_back({2, f});
   return StageFailed("label", text, at);
 }

@@ -36,6 +36,7 @@ struct StructurePlan {
   double min_bend = 0;   ///< radians: CAD edges smoother than this get no feature chart
   bool features = true;  ///< feature charts at all
   double tet_size = 1;   ///< on the size of the tets
+  // NOLINTNEXTLINE(modernize-use-nullptr)
   friend auto operator<=>(const StructurePlan&, const StructurePlan&) = default;
 };
 

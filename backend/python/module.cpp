@@ -25,7 +25,7 @@ void raise_stage_failed(const StageFailed& failure) {
   PyErr_SetObject(stage_failed.ptr(), error.ptr());
 }
 
-void translate(std::exception_ptr pointer) {
+void translate(std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-value-param): as pybind11 wants it
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const InvalidInput& e) {

@@ -152,8 +152,9 @@ void AxisFlow::for_residual(int node, const Visit& visit) const {
 }
 
 bool AxisFlow::find_path(int from, int to, Path& path) const {
-  auto& [round, mark, by, reached] = network_->scratch_;
-  ++round;
+  auto& scratch = network_->scratch_;
+  auto &mark = scratch.mark, &by = scratch.by, &reached = scratch.reached;
+  const int round = ++scratch.round;
   reached.assign(1, from);
   mark[from] = round;
   for (std::size_t i = 0; i < reached.size() && mark[to] != round; ++i) {
@@ -182,15 +183,15 @@ void AxisFlow::send(const Path& path, FlowInt amount) {
 }
 
 void AxisFlow::lower_reached(int most) {
-  const auto& [round, mark, by, reached] = network_->scratch_;
+  const auto& scratch = network_->scratch_;
   if (most > 1) {
-    for (int node : reached) {
+    for (int node : scratch.reached) {
       for_residual(node, [&](int, int head, FlowInt, int cost) {
-        if (mark[head] != round) most = std::min(most, cost);
+        if (scratch.mark[head] != scratch.round) most = std::min(most, cost);
       });
     }
   }
-  for (int node : reached) value_[node] -= most;
+  for (int node : scratch.reached) value_[node] -= most;
 }
 
 bool AxisFlow::demand(const Difference& d) {

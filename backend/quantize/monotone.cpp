@@ -57,7 +57,7 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
       int axis = 0;
       while (kCornerCoordinates[i][axis] == kCornerCoordinates[j][axis]) ++axis;
       bool behind = false;
-      for (int d = 0; d < 3; ++d) behind |= d != axis && kCornerCoordinates[i][d] == 0 && block.neighbours[2 * d] >= 0;
+      for (int d = 0; d < 3; ++d) behind |= d != axis && kCornerCoordinates[i][d] == 0 && block.neighbours[low_side(d)] >= 0;
       if (behind) continue;
       const bool forward = kCornerCoordinates[i][axis] == 0;
       all.push_back(
@@ -77,6 +77,7 @@ MonotonePaths::MonotonePaths(const BlockComplex& complex, const PolycuboidMap& m
   for (int d = 0; d < 3; ++d) {
     const auto& charts = problem.axes[d].charts;
     std::vector<double> values;
+    values.reserve(charts.size());
     for (int c : charts) values.push_back(map.charts[c].value);
     std::sort(values.begin(), values.end());
     for (int c : charts) {

@@ -9,13 +9,13 @@ namespace polycube {
 struct Cut2 {
   struct Alternative {
     int axis, low, high;
-    friend auto operator<=>(const Alternative&, const Alternative&) = default;
+    friend auto operator<=>(const Alternative&, const Alternative&) = default;  // NOLINT(modernize-use-nullptr)
   };
   int count = 0;
   std::array<Alternative, 3> alternatives{};
   const Alternative* begin() const { return alternatives.data(); }
   const Alternative* end() const { return alternatives.data() + count; }
-  friend auto operator<=>(const Cut2&, const Cut2&) = default;
+  friend auto operator<=>(const Cut2&, const Cut2&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 class MonotonePaths {
@@ -28,7 +28,7 @@ class MonotonePaths {
   /// Per block edge: axis, unknowns of its ends, block vertices of its ends, low to high.
   struct Edge {
     int axis, low, high, from, to;
-    friend auto operator<=>(const Edge&, const Edge&) = default;
+    friend auto operator<=>(const Edge&, const Edge&) = default;  // NOLINT(modernize-use-nullptr)
   };
   const std::vector<Edge>& edges() const { return edges_; }
   /// Per block vertex: its unknown in each axis.

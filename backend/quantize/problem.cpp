@@ -12,7 +12,7 @@ std::vector<std::array<int, 3>> opposite_charts(const BlockComplex& complex) {
   std::vector<std::array<int, 3>> pairs;
   for (const Block& first : complex.blocks) {
     for (int d = 0; d < 3; ++d) {
-      if (first.neighbours[2 * d] >= 0) continue;
+      if (first.neighbours[low_side(d)] >= 0) continue;
       const Block* last = &first;
       while (last->neighbours[2 * d + 1] >= 0) last = &complex.blocks[last->neighbours[2 * d + 1]];
       pairs.push_back({d, first.charts[d][0], last->charts[d][1]});

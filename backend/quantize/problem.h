@@ -19,7 +19,7 @@ struct Difference {
   int source = kNone;  ///< engineer's constraint it comes from; kLayers: QuantizeOptions::min_layers above 1;
                        ///< kStructure: QuantizeOptions::structure
   friend bool operator==(const Difference&, const Difference&) = default;
-  friend auto operator<=>(const Difference&, const Difference&) = default;
+  friend auto operator<=>(const Difference&, const Difference&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// One axis; low and high are numbers of unknowns of this axis.

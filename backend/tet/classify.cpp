@@ -76,7 +76,8 @@ std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
   const std::vector<int>& order = model.brep_order(dim);
   std::map<int, int> result;
   std::set<int> taken;
-  for (const auto& [tag, probe] : probes(raw, dim)) {
+  for (const auto& [tag, found] : probes(raw, dim)) {
+    const Probe& probe = found;
     int best = 0;
     double least = std::numeric_limits<double>::infinity();
     const auto all_within = [&](int id, double reach) {

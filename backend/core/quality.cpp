@@ -132,7 +132,8 @@ const std::array<InnerDerivatives, 3>& inner_derivatives() {
     std::array<InnerDerivatives, 3> result;
     const double g = std::sqrt(0.6);
     for (int p = 0; p < kInnerPoints; ++p) {
-      const Vec3 at(g * (p / 9 - 1), g * (p / 3 % 3 - 1), g * (p % 3 - 1));
+      const int i = p / 9, j = p / 3 % 3, k = p % 3;
+      const Vec3 at(g * (i - 1), g * (j - 1), g * (k - 1));
       for (int c = 0; c < 8; ++c) {
         const Vec3 gradient = shape_gradient(c, at);
         for (int a = 0; a < 3; ++a) result[a](p, c) = gradient[a];

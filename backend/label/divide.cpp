@@ -40,6 +40,7 @@ struct Cutter {
 
   void cut(int face, int i, const std::function<double(const Vec3&)>& value, const Monitor& monitor) {
     std::vector<BorderFunction> borders;
+    borders.reserve(std::size_t{1} << i);
     for (int p = 0; p < 1 << i; ++p) borders.push_back({8 * face + p + (1 << i), 8 * face + p, [&](int n) { return value(mesh.points[n]); }});
     region = cut_along(mesh, region, borders, monitor);
   }

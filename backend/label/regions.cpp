@@ -56,6 +56,7 @@ RegionGraph build_region_graph(const TetMesh& mesh, const std::vector<int>& tria
   const auto right = [&](const Side& s) { return triangle_region[neighbours[s.triangle][s.corner]]; };
 
   std::vector<int> nodes;
+  nodes.reserve(leaving.size());
   for (const auto& [node, sides] : leaving) nodes.push_back(node);
   std::sort(nodes.begin(), nodes.end());
   std::unordered_map<int, int> junction_of;

@@ -615,6 +615,7 @@ class Associator {
   }
   int quad_euler(const std::vector<int>& quads) const {
     std::vector<Quad> cells;
+    cells.reserve(quads.size());
     for (int q : quads) cells.push_back(b_.quads[q]);
     return euler(cells);
   }

@@ -185,6 +185,7 @@ std::vector<Triangle> boundary_facets(const std::vector<Tet>& tets) {
   }
   std::sort(single.begin(), single.end(), [](const Facet& a, const Facet& b) { return a.order < b.order; });
   std::vector<Triangle> result;
+  result.reserve(single.size());
   for (const Facet& facet : single) result.push_back(facet.outward);
   return result;
 }

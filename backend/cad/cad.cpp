@@ -218,6 +218,7 @@ std::array<double, 2> CadModel::edge_range(int id) const { return {shape_->edge(
 std::vector<Vec3> CadModel::edge_samples(int id, int count) const {
   const auto [first, last] = edge_range(id);
   std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) points.push_back(edge_point(id, first + (last - first) * i / (count - 1)));
   return points;
 }

@@ -335,6 +335,7 @@ void Curving::sweep(const std::vector<int>& active) {
     group.margin = std::min(group.margin, margins_[h]);
   }
   std::vector<std::pair<Vec3, Support>> start;
+  start.reserve(active.size());
   for (int e : active) start.emplace_back(node(e), supports_[e]);
   for (int round = 0; round < kSweeps; ++round)
     for (std::size_t i = 0; i < active.size(); ++i) {

@@ -212,6 +212,7 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
   const auto neighbours = triangle_neighbours(s.mesh.triangles);
   const int n = static_cast<int>(labels.size());
   std::vector<int> kind;
+  kind.reserve(labels.size());
   for (int t = 0; t < n; ++t) kind.push_back(halves.half(t) + 8 * labels[t] + 64 * barrels.sector(t));
   std::vector<int> region;
   for (int pass = 0; pass < 3; ++pass) {

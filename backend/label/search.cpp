@@ -65,6 +65,7 @@ std::vector<Move> moves_near(const RegionGraph& g, const Violations& violations,
     for (int l = 0; l < 6; ++l) unique.insert({{star.begin(), star.end()}, l});
   }
   std::vector<Move> moves;
+  moves.reserve(unique.size());
   for (const auto& [set, l] : unique) moves.push_back({set, l});
   return moves;
 }

@@ -145,6 +145,7 @@ std::vector<int> face_labels(const LabelledPart& part, int face_count) {
     area[part.tets.triangle_face[t]][part.labelling.label[t]] += (p[b] - p[a]).cross(p[c] - p[a]).norm();
   }
   std::vector<int> labels;
+  labels.reserve(area.size());
   for (const auto& a : area) labels.push_back(static_cast<int>(std::max_element(a.begin(), a.end()) - a.begin()));
   return labels;
 }

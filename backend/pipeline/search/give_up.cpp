@@ -34,6 +34,7 @@ bool drop(const CadModel& model, const PaddedMesh& padded, const std::vector<cha
   }
   if (blame.empty()) return false;
   std::vector<std::pair<int, int>> worst;  // (minus blame, edge)
+  worst.reserve(blame.size());
   for (const auto& [edge, nodes] : blame) worst.emplace_back(-nodes, edge);
   std::sort(worst.begin(), worst.end());
   for (int i = 0; i < std::min(count, static_cast<int>(worst.size())); ++i) {

@@ -66,6 +66,7 @@ std::vector<med_int> create_node_families(const File& file, const FemMesh& mesh)
     const auto [it, fresh] = families.try_emplace(membership, static_cast<med_int>(families.size()));
     if (fresh) {
       std::vector<std::string> names;
+      names.reserve(membership.size());
       for (int g : membership) names.push_back(node_group_name(mesh.groups[g]));
       create_family(file, it->second, names);
     }
@@ -90,10 +91,12 @@ std::vector<med_int> create_element_families(const File& file, const FemMesh& me
     if (!fresh) continue;
     it->second = --next;
     std::vector<std::string> names;
+    names.reserve(set.size());
     for (int g : set) names.push_back(group_name(mesh.groups[g]));
     create_family(file, it->second, names);
   }
   std::vector<med_int> family_of;
+  family_of.reserve(memberships.size());
   for (const auto& membership : memberships) family_of.push_back(families.at(membership));
   return family_of;
 }

@@ -534,6 +534,7 @@ class Conformer {
 
   static std::vector<FitCandidate> candidates_of(std::vector<PaddedGrids>& choices) {
     std::vector<FitCandidate> candidates;
+    candidates.reserve(choices.size());
     for (PaddedGrids& c : choices) candidates.push_back({c.joined.whole.mesh, c.joined.whole.association});
     return candidates;
   }

@@ -154,7 +154,7 @@ CornerSet with_template(CornerSet corners) {
 }
 
 std::vector<CellPart> cell_parts(CornerSet corners, const std::array<bool, 3>& divided) {
-  const std::vector<CellPart> whole = box_parts({false, false, false});
+  std::vector<CellPart> whole = box_parts({false, false, false});
   if (corners == kAllCorners) return box_parts(divided);
   const std::vector<std::array<int, 2>> edges = edges_in(corners);
   if (edges.empty()) return whole;

@@ -435,6 +435,7 @@ class Evaluator::Work {
 
   static std::vector<FitCandidate> candidates_of(std::vector<PaddedMesh>& choices) {
     std::vector<FitCandidate> result;
+    result.reserve(choices.size());
     for (PaddedMesh& c : choices) result.push_back({c.mesh, c.association});
     return result;
   }

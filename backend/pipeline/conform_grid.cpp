@@ -91,7 +91,7 @@ std::vector<DistanceConstraint> walls_of_solids(const BlockComplex& complex, con
       // A line of blocks of one solid from one end to the other; those between outer charts alone the quantization knows by itself.
       if (!ends(b, low_side(d))) continue;
       int last = b;
-      while (!ends(last, high_side(d))) last = complex.blocks[last].neighbours[high_side(d)];
+      while (!ends(last, low_side(d) + 1)) last = complex.blocks[last].neighbours[low_side(d) + 1];
       const int low = complex.blocks[b].charts[d][0], high = complex.blocks[last].charts[d][1], least = layers[block_solid[b]];
       constraints.push_back({low, high, 1, std::numeric_limits<int>::max(), "an element through the walls of a solid"});
       if (least > 1)

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import spsolve
 from support import VECTOR, FolderTest, Part, chamfered, cylinder, plate
-from test_solids import ConformTest, box_on_box, laminate, mesh, pin_in_plate
+from test_solids import ConformTest, box_on_box, laminate, mesh, pin_in_plate, shared
 
 import _polycube
 
@@ -83,11 +83,14 @@ class Demands(FolderTest):
         found = mesh(box_on_box(), size=2, min_layers=1, growth=1, sizes={"Z": 0.5}, order=1)
         self.assertEqual(len(np.unique(np.round(found.nodes[:, 2], 9))), 6 + 4 + 1)
 
-    def test_a_bore_by_the_number_of_either_side(self):
-        shape = pin_in_plate()
-        bore = next("Face{}".format(n) for n, f in enumerate(shape.Faces, 1) if f.Surface.TypeId == "Part::GeomCylinder")
-        coarse, fine = mesh(shape, size=2), mesh(shape, size=2, sizes={bore: 0.7})
-        self.assertGreater(min(np.array(self.counts(fine)) / self.counts(coarse)), 3)
+    def test_a_bore_that_solids_share_or_have_each(self):
+        """One face by its number, two that lie against each other by both; which of them a cut leaves depends on OpenCASCADE."""
+        plate_and_pin = pin_in_plate().Solids
+        for shape, number in ((shared(*plate_and_pin), 1), (Part.Compound([solid.copy() for solid in plate_and_pin]), 2)):
+            bore = ["Face{}".format(n) for n, f in enumerate(shape.Faces, 1) if f.Surface.TypeId == "Part::GeomCylinder"]
+            self.assertEqual(len(bore), number)
+            coarse, fine = mesh(shape, size=2), mesh(shape, size=2, sizes={face: 0.7 for face in bore})
+            self.assertGreater(min(np.array(self.counts(fine)) / self.counts(coarse)), 3)
 
     def test_bias_from_the_start_of_the_edge(self):
         shape = laminate(2, 2)

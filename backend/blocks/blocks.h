@@ -16,10 +16,10 @@ struct Block {
   std::vector<int> tets;                       ///< tets that cover it, ascending
 };
 
-/// A connected component of a chart's plane cut through the solid, with the charts it touches.
 /// A block's side at the low end of an axis; that at the high end is the next.
 constexpr int low_side(int axis) { return 2 * axis; }
 
+/// A connected component of a chart's plane cut through the solid, with the charts it touches.
 struct Sheet {
   int axis = 0;
   int unknown = 0;          ///< chart that stands for all charts that must get the same integer as this sheet

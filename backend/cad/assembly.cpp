@@ -3,9 +3,11 @@
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 #include <Standard_Failure.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "cad/fuse.h"
@@ -93,6 +95,50 @@ std::vector<Interface> find_interfaces(const std::vector<CadModel>& solids, Gene
   return result;
 }
 
+/// Per solid, the least of those that it hangs together with by interfaces.
+std::vector<int> parts_by_interfaces(const Assembly& assembly) {
+  std::vector<int> part(assembly.solids.size() + 1);
+  std::iota(part.begin(), part.end(), 0);
+  for (const Interface& interface : assembly.interfaces) {
+    const int a = part[static_cast<std::size_t>(interface.solids[0])], b = part[static_cast<std::size_t>(interface.solids[1])];
+    std::replace(part.begin(), part.end(), std::max(a, b), std::min(a, b));
+  }
+  return part;
+}
+
+/// Warnings of solids that meet in edges or points and hang together by no interfaces: nothing passes from one to the other.
+std::vector<std::string> bare_contacts(const Assembly& assembly, GeneralFuse& fuse) {
+  std::map<std::array<int, 2>, CadRef> found;  // the first edge, or else vertex, of the pair
+  for (const int dim : {1, 0}) {
+    TopTools_IndexedMapOfShape pieces;
+    std::vector<std::vector<std::pair<int, CadRef>>> uses;  // per piece: solid and CAD entity
+    for (int s = 0; s < static_cast<int>(assembly.solids.size()); ++s) {
+      const CadModel::Shape& shape = assembly.solids[s].shape();
+      TopTools_IndexedMapOfShape own;
+      TopExp::MapShapes(shape.shape, kKinds[static_cast<std::size_t>(dim)], own);
+      for (int i = 1; i <= own.Extent(); ++i) {
+        for (const TopoDS_Shape& piece : fuse.images(own(i))) {
+          const auto at = static_cast<std::size_t>(pieces.Add(piece));
+          uses.resize(std::max(uses.size(), at));
+          uses[at - 1].emplace_back(s + 1, CadRef{dim, shape.numbers[static_cast<std::size_t>(dim)][static_cast<std::size_t>(i) - 1]});
+        }
+      }
+    }
+    for (const auto& same : uses)
+      for (const auto& [a, entity] : same)
+        for (const auto& [b, unused] : same)
+          if (a < b) found.try_emplace({a, b}, entity);
+  }
+  const std::vector<int> part = parts_by_interfaces(assembly);
+  std::vector<std::string> warnings;
+  for (const auto& [pair, entity] : found) {
+    if (part[static_cast<std::size_t>(pair[0])] == part[static_cast<std::size_t>(pair[1])]) continue;
+    warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " meet in " + name(entity) +
+                       " alone: they have no nodes in common, and no load passes from one to the other");
+  }
+  return warnings;
+}
+
 /// Whether the box of a solid comes near that of another at all.
 bool may_touch(const std::vector<CadModel>& solids) {
   for (std::size_t a = 0; a < solids.size(); ++a)
@@ -110,6 +156,7 @@ void find_touching(Assembly& assembly, const Monitor& monitor) {
       GeneralFuse fuse(assembly.solids, monitor);
       refuse_overlaps(assembly, fuse);
       assembly.interfaces = find_interfaces(assembly.solids, fuse);
+      for (std::string& line : bare_contacts(assembly, fuse)) assembly.warnings.push_back(std::move(line));
     });
   } catch (const Standard_Failure& failure) {
     monitor.check();

@@ -18,7 +18,7 @@ import stuck
 from FreeCAD import Rotation, Vector
 
 from freecad import polycube
-from freecad.polycube import api, job, measures, objects, option_table, prediction, shapes
+from freecad.polycube import api, cells, job, measures, objects, option_table, prediction, shapes
 
 
 def moved(shape, placement=None, scale=1.0):
@@ -502,6 +502,59 @@ class FemMeshObject(DocumentTest):
         self.assertIsNone(self.document.getObject(name))
         self.document.redo()
         self.assertEqual(self.document.getObject(name).FemMesh.HexaCount, self.document.getObject(name).Hexahedra)
+
+    def test_undo_takes_the_cells_back_too(self):
+        """FreeCAD leaves a mesh object its cells."""
+        box = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        obj = polycube.create_fem_mesh(box, size=5, order=1)
+        coarse = obj.FemMesh.HexaCount
+        polycube.update_fem_mesh(obj, size=2.5)
+        fine = obj.FemMesh.HexaCount
+        self.assertNotEqual(coarse, fine)
+        for change, number in ((self.document.undo, coarse), (self.document.redo, fine), (self.document.undo, coarse)):
+            change()
+            self.assertEqual((obj.FemMesh.HexaCount, obj.Hexahedra, obj.MeshState), (number, number, "Up to date"))
+        self.document.openTransaction("Caller's")
+        polycube.update_fem_mesh(obj, size=2.5)
+        self.document.abortTransaction()
+        self.assertEqual((obj.FemMesh.HexaCount, obj.Hexahedra, obj.MeshState), (coarse, coarse, "Up to date"))
+        # As many cells of another shape are others.
+        polycube.update_fem_mesh(obj)
+        box.Length = 11
+        self.document.recompute()
+        polycube.update_fem_mesh(obj)
+        longest = lambda: max(point.x for point in obj.FemMesh.Nodes.values())
+        self.assertAlmostEqual(longest(), 11)
+        self.document.undo()
+        self.assertAlmostEqual(longest(), 10)
+
+    def test_cells_that_are_not_remembered_are_out_of_date(self):
+        box = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        obj = polycube.create_fem_mesh(box, size=5, order=1)
+        polycube.update_fem_mesh(obj, size=2.5)
+        with mock.patch.dict(cells._remembered, clear=True):
+            self.document.undo()
+        self.assertEqual(obj.MeshState, "Out of date")
+        self.document.recompute()
+        self.assertEqual(obj.MeshState, "Out of date")
+
+    def test_what_is_gone_is_told(self):
+        box = self.document.addObject("Part::Box", "Box")
+        self.document.recompute()
+        obj = polycube.create_fem_mesh(box, size=5, order=1)
+        gone = polycube.create_fem_mesh(box, size=5, order=1)
+        self.document.removeObject(gone.Name)
+        for call in (polycube.update_fem_mesh, polycube.set_options, lambda mesh: polycube.refine(mesh, "size", ["Face1"], 2), polycube.solve, polycube.converge):
+            with self.subTest(call), self.assertRaisesRegex(polycube.InvalidInput, "gone|needed"):
+                call(gone)
+        before = len(self.document.Objects)
+        with self.assertRaisesRegex(polycube.InvalidInput, "gone"):
+            polycube.create_fem_mesh(box, size=5, order=1, progress=lambda *_: self.document.getObject("Box") and self.document.removeObject("Box"))
+        self.assertEqual(len(self.document.Objects), before - 1)
+        with self.assertRaisesRegex(polycube.InvalidInput, "gone"):
+            polycube.update_fem_mesh(obj, size=2)
 
     def test_joins_the_callers_transaction(self):
         box = self.box()

@@ -13,7 +13,7 @@ from FreeCAD import Vector
 from femmesh import meshtools
 
 from freecad import polycube
-from freecad.polycube import load_sets, objects
+from freecad.polycube import load_sets, objects, shapes
 
 calculix = solver_tests.calculix
 
@@ -313,8 +313,15 @@ class Warnings(LoadTest):
         with mock.patch.object(objects, "GROUPS_ARE_ASKED", False):
             self.assertTrue(any("heat flux" in line for line in self.set_mesh(obj, result)))
 
+    def told(self, analysis):
+        """What FreeCAD's own writer warns of."""
+        self.document.recompute()
+        with mock.patch.object(load_sets, "FreeCAD") as freecad:
+            self.written(analysis)
+        return [call.args[0].rstrip("\n") for call in freecad.Console.PrintWarning.call_args_list]
+
     def test_what_the_mesh_does_not_take_is_told_when_freecad_writes(self):
-        """A seam has no mesh edges, and a rim beside it takes only its share."""
+        """A seam has no mesh edges: it takes no load, and as a support two nodes; a rim beside it takes only its share."""
         part = self.part(Part.makeCylinder(10, 20))
         edges = part.Shape.Edges
         seam = "Edge{}".format(next(n for n, edge in enumerate(edges, 1) if not edge.Closed))
@@ -322,17 +329,38 @@ class Warnings(LoadTest):
         ends = {round(face.CenterOfMass.z): "Face{}".format(n) for n, face in enumerate(part.Shape.Faces, 1)}
         analysis, _ = calculix.make_analysis(part, [ends[0]])
         polycube.create_fem_mesh(part, size=6, analysis=analysis)
-        for names, arriving in (([seam], 0), ([rim, seam], 1000 * 20 * math.pi / (20 * math.pi + 20)), ([rim], 1000)):
-            with self.subTest(names):
-                force = self.add(analysis, "Force", part, *names, Force=1000, Direction=(part, [ends[20]]))
-                self.document.recompute()
-                with mock.patch.object(load_sets, "FreeCAD") as freecad:
-                    self.written(analysis)
-                lines = [call.args[0] for call in freecad.Console.PrintWarning.call_args_list]
-                if arriving < 1000:
-                    self.assertEqual(len(lines), 1)
-                    told = re.fullmatch(r"Force: only ([0-9.]+) of 1000 N are where the mesh is\n|Force: nothing of the mesh is where it acts\n", lines[0])
-                    self.assertAlmostEqual(float(told.group(1) or 0), arriving, delta=10)  # FreeCAD measures chords
-                else:
-                    self.assertEqual(lines, [])
-                self.document.removeObject(force.Name)
+        for kind, names, values in (
+            ("Force", [seam], {"Force": 1000, "Direction": (part, [ends[20]])}),
+            ("Force", [rim, seam], {"Force": 1000, "Direction": (part, [ends[20]])}),
+            ("Force", [rim], {"Force": 1000, "Direction": (part, [ends[20]])}),
+            ("Fixed", [seam], {}),
+        ):
+            with self.subTest((kind, names)):
+                added = self.add(analysis, kind, part, *names, **values)
+                try:
+                    expected = ["{}: {} is {}".format(kind, seam, shapes.SEAM)] if seam in names else []
+                    self.assertEqual(self.told(analysis), expected)
+                    if expected:
+                        with self.assertRaisesRegex(polycube.InvalidInput, "seam"):
+                            polycube.solve(analysis)
+                finally:
+                    self.document.removeObject(added.Name)
+
+    def test_what_the_mesh_does_not_capture_is_told_when_freecad_writes(self):
+        """Two faces of one surface, as the feature angle of a right angle has all of them."""
+        part = self.part(Part.makeBox(10, 10, 10))
+        analysis, _ = calculix.make_analysis(part, ["Face1"])
+        obj = polycube.create_fem_mesh(part, size=5, analysis=analysis)
+        report = json.loads(obj.Report)
+        report["cad"]["faces"]["ignored"] = ["Face6"]
+        obj.Report = json.dumps(report)
+        self.add(analysis, "Pressure", part, "Face6", Pressure=1)
+        self.assertEqual(self.told(analysis), ["Pressure: the mesh does not capture Face6"])
+        with self.assertRaisesRegex(polycube.InvalidInput, "does not capture Face6"):
+            polycube.solve(analysis)
+
+    def test_a_share_of_a_force_that_finds_no_place_is_told(self):
+        whole = {"Object": mock.Mock(Force=1000.0, References=[]), "NodeLoadTable": [("", {1: 600.0, 2: 400.0})]}
+        self.assertEqual(load_sets.loss(whole), "")
+        self.assertIn("of 1000 N", load_sets.loss({**whole, "NodeLoadTable": [("", {1: 600.0})]}))
+        self.assertIn("nothing", load_sets.loss({**whole, "NodeLoadTable": [("", {})]}))

@@ -84,8 +84,17 @@ TEST(Assembly, AnInclusionTouchesAllRound) {
 }
 
 TEST(Assembly, SolidsApartOrThatMeetInAnEdgeHaveNoInterface) {
-  EXPECT_TRUE(assembly(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::box(1, 1, 1), 0, 5, 0, 0))).interfaces.empty());
-  EXPECT_TRUE(assembly(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::box(1, 1, 1), 0, 1, 1, 0))).interfaces.empty());
+  const std::string box = shapes::box(1, 1, 1);
+  const Assembly apart = assembly(shapes::compound(box, shapes::moved(box, 0, 5, 0, 0)));
+  EXPECT_TRUE(apart.interfaces.empty());
+  EXPECT_TRUE(apart.warnings.empty());
+  const Assembly edge = assembly(shapes::compound(box, shapes::moved(box, 0, 1, 1, 0)));
+  EXPECT_TRUE(edge.interfaces.empty());
+  EXPECT_THAT(edge.warnings, ElementsAre(::testing::MatchesRegex("Solid1 and Solid2 meet in Edge[0-9]+ alone: .*")));
+  const Assembly point = assembly(shapes::compound(box, shapes::moved(box, 0, 1, 1, 1)));
+  EXPECT_THAT(point.warnings, ElementsAre(::testing::MatchesRegex("Solid1 and Solid2 meet in Vertex[0-9]+ alone: .*")));
+  // Over the third box the two have the edge's nodes in common.
+  EXPECT_TRUE(assembly(shapes::compound(shapes::compound(box, shapes::moved(box, 0, 1, 1, 0)), shapes::moved(box, 0, 1, 0, 0))).warnings.empty());
 }
 
 TEST(Assembly, OverlapsAreRefusedWithTheirVolume) {

@@ -31,9 +31,18 @@ def echo(obj):
 def _recorded(call):
     """A call that the window records."""
 
+    return _on_what_is_there(functools.wraps(call)(lambda *arguments, **named: call(*arguments, **named) if _done is None else _done))
+
+
+def _on_what_is_there(call):
+    """A call that says so where an object that it is given, or its document, is gone, before it or meanwhile."""
+
     @functools.wraps(call)
     def called(*arguments, **named):
-        return call(*arguments, **named) if _done is None else _done
+        try:
+            return call(*arguments, **named)
+        except ReferenceError as error:
+            raise InvalidInput("an object that is needed, or its document, is gone: {}".format(error)) from None
 
     return called
 
@@ -144,6 +153,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     meshed = shapes.signature(shape)
     _tell_uncaptured(part, analysis)
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
+    for one in parts:
+        _check_object(one)
     with transaction(document, "Hexahedral mesh from shape"):
         obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
         if analysis:
@@ -189,6 +200,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     _tell_uncaptured(part, objects.analysis_of(obj))
     wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
     result = _run("mesh", shape, wanted, progress, log, cancel)
+    _check_mesh(obj)
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
@@ -268,6 +280,7 @@ def set_analysis(obj, analysis):
     return obj
 
 
+@_on_what_is_there
 def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
     """Solves an analysis by CalculiX, with all its loads, and loads the results into it: see solver.solve, which this is. Returns a Solution.
 
@@ -280,6 +293,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     return solving.solve(analysis, element, solver, folder, log, cancel)
 
 
+@_on_what_is_there
 def converge(analysis, sizes=3, quantity="max displacement", **more):
     """The analysis on meshes finer and finer, and how far a result is from its limit: see convergence.converge, which this is. Returns a Convergence.
 

@@ -136,7 +136,10 @@ def _options(mesh, sizes):
     through_walls = options.get("min_layers") or (2 if options.get("order", defaults["order"]) == 2 else 3)
     if isinstance(sizes, int):
         sizes = [now * _STEP ** ((sizes - 1) / 2 - i) for i in range(sizes)]
-    sizes = sorted((float(size) for size in sizes), reverse=True)
+    try:
+        sizes = sorted((float(size) for size in sizes), reverse=True)
+    except (TypeError, ValueError):
+        raise InvalidInput("sizes: neither their number nor a list of sizes but {!r}".format(sizes)) from None
     if len(sizes) < 3 or len(set(sizes)) < len(sizes) or sizes[-1] <= 0:
         raise InvalidInput("three different sizes are needed, or more")
     for size in sizes:

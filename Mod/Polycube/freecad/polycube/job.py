@@ -165,6 +165,8 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
 
 def _json_value(value):
     """JSON has no NaN and no infinity, which a property may hold; the engine refuses the text and names the option."""
+    if isinstance(value, (list, tuple)):
+        return [_json_value(one) for one in value]
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 

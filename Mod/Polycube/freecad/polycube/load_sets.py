@@ -7,6 +7,7 @@ meshes only, and has the Report view tell of a load that the mesh does not take.
 """
 
 import functools
+import json
 
 import FreeCAD
 
@@ -260,15 +261,26 @@ def _with_losses_told(original):
             return
         for entries in vars(self.member).values():
             for entry in entries if isinstance(entries, list) else ():
-                lost = loss(entry)
+                names = not_captured(entry["Object"], self.femmesh.owner)
+                lost = "the mesh does not capture {}".format(", ".join(names)) if names else loss(entry)
                 if lost:
                     FreeCAD.Console.PrintWarning("{}: {}\n".format(entry["Object"].Label, lost))
 
     return get
 
 
+def not_captured(constraint, obj):
+    """Names of the faces, edges and vertices that a constraint is on and the mesh object does not have as they are."""
+    missing = {name for kind in json.loads(obj.Report)["cad"].values() for name in kind["lost"] + kind["ignored"]}
+    references = getattr(constraint, "References", []) if missing else []
+    return sorted({name for owner, names in references for name in missing.intersection(shapes.names_in(compat.part_of(obj), owner, names))})
+
+
 def loss(entry):
     """What of a constraint's entry the mesh does not take, as a sentence; empty where it takes all."""
+    for obj, name in references(entry["Object"]) if hasattr(entry["Object"], "References") else ():
+        if name.startswith("Edge") and shapes.is_seam(obj.Shape, obj.Shape.getElement(name)):
+            return "{} is {}".format(name, shapes.SEAM)
     for name in (name for name in _FOUND if name in entry):
         found = entry[name]
         if name in _TITLED:

@@ -4,7 +4,7 @@ import json
 
 import FreeCAD
 
-from . import compat, fem_mesh, load_sets, option_table, refinements, shapes
+from . import cells, compat, fem_mesh, load_sets, option_table, refinements, shapes
 from .compat import part_of, set_part
 from .errors import InvalidInput
 from .result import as_runs
@@ -23,13 +23,14 @@ _RESULTS = [
     ("App::PropertyString", "Report", "Polycube Result", "The mesher's report, JSON"),
     ("App::PropertyString", "Blocks", "Polycube Result", "Block of the polycube that each cell is part of, and how many after it: 3x5,7x2"),
     ("App::PropertyString", "MeshedOptions", "Polycube Result", "Options of the present mesh, JSON"),
+    ("App::PropertyString", "MeshedCells", "Polycube Result", "Fingerprint of the cells of the present mesh"),
     ("App::PropertyFloatList", "MeshedShape", "Polycube Result", "Signature of the shape of the present mesh"),
 ]
 #: what polycube.solve solves the mesh with: "Default", or one of deck.TYPES
 _ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
 #: property that documents do not have which are older than the bounds on counts
 _BOUND = "MeshSizeFromCurvature"
-_HIDDEN = ("Report", "Blocks", "MeshedOptions", "MeshedShape")
+_HIDDEN = ("Report", "Blocks", "MeshedOptions", "MeshedCells", "MeshedShape")
 
 
 def make(document, part, name="PolycubeMesh"):
@@ -80,6 +81,7 @@ def set_mesh(obj, result, options, meshed_shape, mesh=None, asked=None):
         warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis, GROUPS_ARE_ASKED)
     option_table.write(obj, options)
     quality = result.report["quality"]
+    obj.MeshedCells = cells.remember(obj, mesh)
     obj.FemMesh = mesh
     obj.Hexahedra = len(result.hexes)
     obj.NodeCount = len(result.nodes)
@@ -98,6 +100,8 @@ def state(obj):
     """EMPTY, CURRENT or OUTDATED, from the object's properties and its shape as they are now."""
     if not obj.FemMesh.VolumeCount:
         return EMPTY
+    if not cells.is_as_meshed(obj):
+        return OUTDATED
     try:
         same_options = obj.MeshedOptions == _options_text(obj)
     except InvalidInput:  # options that cannot be read
@@ -123,7 +127,7 @@ def _grouped_shape(obj):
     """For load_sets: the shape whose faces a mesh has groups for; None of meshes that are not ours or whose part has changed, with a warning then."""
     if not is_polycube(obj):
         return None
-    if not shape_is_meshed(obj):
+    if not cells.is_as_meshed(obj) or not shape_is_meshed(obj):
         FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
         return None
     return shapes.numbered_shape(part_of(obj))
@@ -186,8 +190,21 @@ def _without_bounds(obj, was_current):
         obj.MeshedOptions, obj.MeshState = _options_text(obj), CURRENT
 
 
-class _Moves:
-    """Marks meshes whose part is moved by a container around it, or gets into another: FreeCAD recomputes what is linked to the container only."""
+class _Watcher:
+    """Marks meshes whose part is moved by a container around it, or gets into another: FreeCAD recomputes what is linked to the container only. And has
+    meshes follow undo, redo and abort, which leave them their cells."""
+
+    def slotUndoDocument(self, document):
+        for obj in document.findObjects("Fem::FemMeshObject"):
+            if is_polycube(obj):
+                cells.put_back(obj)
+                obj.Proxy.execute(obj)
+                obj.purgeTouched()
+
+    slotRedoDocument = slotAbortTransaction = slotUndoDocument
+
+    def slotDeletedDocument(self, document):
+        cells.forget(document.Name)
 
     def slotChangedObject(self, obj, name):
         if obj.Document.Restoring:
@@ -216,4 +233,4 @@ def _is_inside(obj, container):
 
 #: whether the solver writers of this FreeCAD ask the groups of our meshes
 GROUPS_ARE_ASKED = load_sets.install(_grouped_shape)
-FreeCAD.addDocumentObserver(_Moves())
+FreeCAD.addDocumentObserver(_Watcher())

@@ -76,13 +76,16 @@ def _plain(option, value):
             return [_face(face) for face in value]
         if kind == "frame":
             first, second = value
-            return [[float(x), float(y), float(z)] for x, y, z in (first, second)]
+            directions = [[float(x), float(y), float(z)] for x, y, z in (first, second)]
+            if not all(math.isfinite(value) for direction in directions for value in direction):
+                raise ValueError
+            return directions
         if kind == "string":
             raise TypeError
         return _number(option, value)
     except InvalidInput:
         raise
-    except (TypeError, ValueError, AttributeError):
+    except (TypeError, ValueError, AttributeError, OverflowError):
         wanted = {
             "labels": 'faces with their axes such as {"Face3": "+X"}',
             "sizes": 'faces or axes with their sizes such as {"Face3": 0.5, "X": 2}',

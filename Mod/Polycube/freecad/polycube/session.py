@@ -19,6 +19,7 @@ class Session:
         self._job = self._child = None
         self._meshes = 0
         self._at_work = threading.Lock()
+        self._closed = False
 
     def mesh(self, progress=None, log=None, cancel=None, **options):
         """As polycube.mesh(), with the options of prepare() where they are not given here."""
@@ -36,7 +37,11 @@ class Session:
         return self._make("count", options, progress, log, cancel)
 
     def close(self):
-        """Ends the child and removes its folder."""
+        """Ends the session: the child goes, and its folder."""
+        self._closed = True
+        self._end()
+
+    def _end(self):
         if self._child:
             job.kill_tree(self._child.pid)
             self._child.wait()
@@ -51,7 +56,7 @@ class Session:
         self.close()
 
     def __del__(self):
-        self.close()
+        self._end()
 
     def _start(self):
         self._job = job.Job(self._shape, self._options, "session")
@@ -76,11 +81,13 @@ class Session:
     def _made(self, what, options, progress, log, cancel):
         from . import option_table
 
+        if self._closed:
+            raise InvalidInput("the session is closed")
         more = option_table.plain(options)
         given = {name: value for name, value in self._options.items() if not (name in _FINENESS and set(more) & set(_FINENESS))}
         options = {**given, **more}
         if not self._child or self._child.poll() is not None:
-            self.close()
+            self._end()
             self._start()
         self._meshes += 1
         name = str(self._meshes)
@@ -108,13 +115,13 @@ class Session:
             pass  # it has died; its last words are below
         except BaseException:
             watcher.end()
-            self.close()
+            self._end()
             raise
         watcher.end()
         if status is None:
             last_words = "" if watcher.reason or watcher.error else self._stderr.text()
             status, stage = self._child.wait(), self._job.stage
-            self.close()
+            self._end()
             if watcher.error:
                 raise watcher.error
             if watcher.reason:

@@ -3,6 +3,8 @@
 from .errors import InvalidInput
 
 RELATIVE_TOLERANCE = 1e-7
+#: what is wrong with a seam
+SEAM = "a seam, where a round face closes: the mesh has nodes there by chance only"
 
 
 def shape_of(thing, beside=None):
@@ -130,6 +132,13 @@ def coincide(a, b, reach):
     own, other = getattr(a, size), getattr(b, size)
     least = reach ** {"Area": 2, "Length": 1, "Volume": 3}[size]
     return abs(own - other) <= least + RELATIVE_TOLERANCE * other and a.CenterOfMass.isEqual(b.CenterOfMass, reach)
+
+
+def is_seam(shape, edge):
+    """Whether an edge of the shape is one where a round face closes."""
+    import Part
+
+    return not edge.Degenerated and any(edge.isSeam(face) for face in shape.ancestorsOfType(edge, Part.Face))
 
 
 def entities(shape, kind):

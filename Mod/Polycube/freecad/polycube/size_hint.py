@@ -42,6 +42,8 @@ class SizeHint(QtGui.QWidget):
         """What automatic is, and about how many cells there will be; a count follows where they are counted."""
         self.stop()
         panel = self._panel
+        if not panel.part_exists():  # Apply tells
+            return
         try:
             shape = shapes.shape_of(panel.part)
             if shape.isNull():

@@ -1,7 +1,6 @@
 """Solves an analysis by CalculiX: FreeCAD's writer makes the input file, what it leaves out of it on hexahedra is added, FreeCAD loads the results."""
 
 import importlib
-import json
 import os
 import queue
 import re
@@ -11,9 +10,9 @@ import time
 
 import FreeCAD
 
-from . import api, balance, ccx, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
+from . import api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
 from .errors import Cancelled, InvalidInput, SolverFailed
-from .load_sets import GroupedMesh, loss
+from .load_sets import GroupedMesh, loss, not_captured
 
 #: node set of all that holds the part
 SUPPORTS = "POLYCUBE_SUPPORTS"
@@ -139,6 +138,8 @@ def write(tools, element=None):
     for kind, _ in special:  # this FreeCAD may know how to write one
         if hasattr(getter.member, "cons_" + kind):
             setattr(getter.member, "cons_" + kind, [])
+    if objects.is_polycube(tools.mesh) and not cells.is_as_meshed(tools.mesh):
+        raise InvalidInput("{}: its cells are not those of its properties; make it again".format(tools.mesh.Label))
     if mesh:
         _check_captured(tools.analysis, mesh.owner)
     getter.get_mesh_sets()
@@ -210,6 +211,10 @@ def _check_references(analysis):
     for constraint in analysis.Group:
         if not constraint.isDerivedFrom("Fem::Constraint"):
             continue
+        if constraint.isDerivedFrom("Fem::ConstraintForce"):
+            kinds = {name.rstrip("0123456789") for _, names in constraint.References for name in names}
+            if len(kinds) > 1 or not kinds <= {"Face", "Edge", "Vertex"}:
+                raise InvalidInput("{}: a force is on faces, on edges or on vertices".format(constraint.Label))
         for obj, names in getattr(constraint, "References", []):
             for name in filter(None, names):  # no name is the whole part
                 shape = getattr(obj, "Shape", None)
@@ -217,18 +222,17 @@ def _check_references(analysis):
                     raise InvalidInput("{}: {} has no {}".format(constraint.Label, obj.Label, name))
                 if name.startswith("Edge") and shape.getElement(name).Length < 1e-7:  # OpenCASCADE's Precision::Confusion
                     raise InvalidInput("{}: {} of {} is a point".format(constraint.Label, name, obj.Label))
+                if name.startswith("Edge") and shapes.is_seam(shape, shape.getElement(name)):
+                    raise InvalidInput("{}: {} of {} is {}".format(constraint.Label, name, obj.Label, shapes.SEAM))
 
 
 def _check_captured(analysis, obj):
     """Raises InvalidInput where a constraint is on faces, edges or vertices that the mesh object does not have as they are: part of the load would be lost."""
-    part = objects.part_of(obj)
-    missing = {name for kind in json.loads(obj.Report)["cad"].values() for name in kind["lost"] + kind["ignored"]}
     for constraint in analysis.Group:
         if constraint.isDerivedFrom("Fem::Constraint"):
-            for owner, names in getattr(constraint, "References", []):
-                found = missing.intersection(shapes.names_in(part, owner, names)) if missing else ()
-                if found:
-                    raise InvalidInput("{}: the mesh does not capture {}; make it again".format(constraint.Label, ", ".join(sorted(found))))
+            found = not_captured(constraint, obj)
+            if found:
+                raise InvalidInput("{}: the mesh does not capture {}; make it again".format(constraint.Label, ", ".join(found)))
 
 
 def _check_found(entries):

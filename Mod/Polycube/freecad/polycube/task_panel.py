@@ -345,7 +345,8 @@ class MeshPanel:
             text = tr("Refused: {}.").format("{}: {}".format(stage_words(error.stage), reason)) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
             self.select(error.entities)
             self.look_at(error.entities)
-            self.form.run.offer(self._ways_out(error.stage))
+            if self.part_exists():
+                self.form.run.offer(self._ways_out(error.stage))
         self.form.run.tell(text, error=True)
         self._show_run()
 

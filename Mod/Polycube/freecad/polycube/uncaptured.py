@@ -83,8 +83,8 @@ class _Part:
             return "{} is not of {}".format(_what(obj, name), self.label)
         if entity.ShapeType == "Edge" and entity.Degenerated:
             return "{} is a point".format(_what(obj, name))
-        if entity.ShapeType == "Edge" and any(entity.isSeam(face) for face in shape.ancestorsOfType(entity, type(shape.Faces[0]))):
-            return "{} is a seam, where a round face closes: the mesh has nodes there by chance only".format(_what(obj, name))
+        if entity.ShapeType == "Edge" and shapes.is_seam(shape, entity):
+            return "{} is {}".format(_what(obj, name), shapes.SEAM)
         lost = next((self._lost[one] for one in own if one in self._lost), None)
         return "{} will have no mesh edges: {}".format(_what(obj, name), lost) if lost else None
 

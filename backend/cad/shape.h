@@ -90,7 +90,7 @@ class NormalTable {
       const auto found = values_.find(key);
       if (found != values_.end()) return found->second;
     }
-    const Vec3 value = work();
+    Vec3 value = work();
     const std::lock_guard lock(mutex_);
     values_.emplace(key, value);
     return value;

@@ -5,6 +5,8 @@ POLYCUBE_OPENINGS sets how often, 24 unless told: 300 take two to five minutes.
 
 import gc
 import os
+import signal
+import sys
 from unittest import mock
 
 import FreeCAD
@@ -201,3 +203,45 @@ class Gone(GuiTest):
         self.assertTrue(task_panel._exists(self.box))
         self.document.removeObject(self.box.Name)
         self.assertFalse(task_panel._exists(self.box))
+
+    def errors_of(self, deed):
+        """What goes wrong in slots meanwhile: Qt leaves it to sys.excepthook."""
+        errors = []
+        with mock.patch.object(sys, "excepthook", lambda *error: errors.append(repr(error[1]))):
+            deed()
+            process_events(0.3)
+        return errors
+
+    def test_a_part_that_goes_while_it_is_meshed(self):
+        for undo in (1, 0):
+            for kill in (False, True):
+                with self.subTest(undo=undo, kill=kill):
+                    self.document.UndoMode = undo
+                    part = self.document.addObject("Part::Box", "Going")
+                    self.document.recompute()
+                    panel = self.open_panel(part)
+
+                    def mesh():
+                        panel.apply()
+                        process_events(0.1)
+                        self.document.removeObject(part.Name)
+                        if kill:
+                            os.kill(int(panel.process.processId()), signal.SIGSEGV)
+                        wait_until(lambda: not panel.process, 60)
+
+                    self.assertEqual(self.errors_of(mesh), [])
+                    self.assertRegex(panel.form.run.status.text(), "Refused.*SIGSEGV" if kill else "gone")
+                    self.press("Cancel")
+
+    def test_a_panel_whose_part_is_gone_is_used(self):
+        panel = self.open_panel(self.box)
+        self.document.removeObject(self.box.Name)
+        for use in (
+            lambda: panel.field("order").widget.setCurrentIndex(0),
+            lambda: panel.axes.preview.setChecked(True),
+            panel.hint.begin,
+            panel.apply,
+        ):
+            with self.subTest(use):
+                self.assertEqual(self.errors_of(use), [])
+        self.assertIn("no part", panel.form.run.status.text())

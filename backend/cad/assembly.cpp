@@ -1,7 +1,9 @@
 #include "cad/assembly.h"
 
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
+#include <Precision.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -20,6 +22,9 @@ namespace {
 
 // Of the smaller solid's volume: a common part below this is rounding in the file, not an overlap (guess).
 constexpr double kOverlap = 1e-6;
+
+// Of the smaller solid's diagonal: solids so near to each other are meant to touch (guess).
+constexpr double kGap = 1e-4;
 
 std::string number_text(double value) {
   char text[32];
@@ -164,6 +169,38 @@ void find_touching(Assembly& assembly, const Monitor& monitor) {
   }
 }
 
+/// How thick the smallest box along the axes is that both boxes reach over; negative where they are apart.
+double common_thickness(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d& b) {
+  return (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).minCoeff();
+}
+
+/// Solids beside each other that all but touch get no common nodes, which is seldom what is wanted.
+void tell_gaps(Assembly& assembly, const Monitor& monitor) {
+  for (std::size_t a = 0; a < assembly.solids.size(); ++a) {
+    for (std::size_t b = a + 1; b < assembly.solids.size(); ++b) {
+      const CadModel &one = assembly.solids[a], &other = assembly.solids[b];
+      const double reach = kGap * std::min(one.diagonal(), other.diagonal());
+      const std::array pair{static_cast<int>(a) + 1, static_cast<int>(b) + 1};
+      const auto is_pair = [&](const Interface& i) { return i.solids == pair; };
+      if (std::abs(common_thickness(one.shape().box, other.shape().box)) > reach) continue;
+      if (std::any_of(assembly.interfaces.begin(), assembly.interfaces.end(), is_pair)) continue;
+      monitor.check();
+      double gap = 0;
+      try {
+        catching_faults([&] {
+          const BRepExtrema_DistShapeShape distance(one.shape().shape, other.shape().shape);
+          if (distance.IsDone()) gap = distance.Value();
+        });
+      } catch (const Standard_Failure&) {
+        monitor.check();  // what OpenCASCADE cannot measure is not told
+      }
+      if (gap > Precision::Confusion() && gap <= reach)
+        assembly.warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " do not touch: they are " + number_text(gap) +
+                                    " mm apart, and have no common nodes");
+    }
+  }
+}
+
 std::vector<int> all_numbers(const std::vector<CadModel>& solids, const std::vector<int>& (CadModel::*numbers)() const) {
   std::set<int> all;
   for (const CadModel& solid : solids) all.insert((solid.*numbers)().begin(), (solid.*numbers)().end());
@@ -191,6 +228,7 @@ Assembly Assembly::of(const FileShape& read, const ReadOptions& options, const M
   assembly.warnings = read.warnings;
   assembly.warnings.insert(assembly.warnings.end(), found.warnings.begin(), found.warnings.end());
   find_touching(assembly, monitor);
+  tell_gaps(assembly, monitor);
   return assembly;
 }
 

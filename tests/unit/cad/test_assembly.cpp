@@ -13,6 +13,7 @@ using files::refusal;
 using files::TestFile;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 Assembly assembly(const std::string& brep) { return Assembly::from_brep(brep); }
@@ -95,6 +96,17 @@ TEST(Assembly, SolidsApartOrThatMeetInAnEdgeHaveNoInterface) {
   EXPECT_THAT(point.warnings, ElementsAre(::testing::MatchesRegex("Solid1 and Solid2 meet in Vertex[0-9]+ alone: .*")));
   // Over the third box the two have the edge's nodes in common.
   EXPECT_TRUE(assembly(shapes::compound(shapes::compound(box, shapes::moved(box, 0, 1, 1, 0)), shapes::moved(box, 0, 1, 0, 0))).warnings.empty());
+}
+
+TEST(Assembly, GapsThatAreHardlyMeantAreTold) {
+  const auto warnings = [](double gap) {
+    return assembly(shapes::compound(shapes::box(4, 4, 2), shapes::moved(shapes::box(4, 4, 2), 0, 0, 0, 2 + gap))).warnings;
+  };
+  EXPECT_THAT(warnings(2e-4), ElementsAre("Solid1 and Solid2 do not touch: they are 0.0002 mm apart, and have no common nodes"));
+  EXPECT_THAT(warnings(0), IsEmpty());
+  EXPECT_THAT(warnings(0.01), IsEmpty());
+  // They meet in an edge.
+  EXPECT_THAT(assembly(shapes::compound(shapes::box(1, 1, 1), shapes::moved(shapes::box(1, 1, 1), 0, 1, 1, 0))).warnings, IsEmpty());
 }
 
 TEST(Assembly, OverlapsAreRefusedWithTheirVolume) {

@@ -432,6 +432,10 @@
       <translation>{}: {:.4g} (blau) bis {:.4g} {} (rot). Ein Doppelklick auf {} zeigt mehr.</translation>
     </message>
     <message>
+      <source>Starting the mesher</source>
+      <translation>Vernetzer starten</translation>
+    </message>
+    <message>
       <source>Reading the part</source>
       <translation>Bauteil lesen</translation>
     </message>

@@ -93,6 +93,28 @@ class Count(AidsTest):
         self.assertAlmostEqual(told / panel.obj.Hexahedra, 1, delta=0.15)
         self.press("Ok")
 
+    def test_after_a_session_that_was_ended_by_force(self):
+        """As where labels are cancelled while the CAD kernel reads the part: the next ones have a process of their own, and the panel closes."""
+        panel = self.panel
+        for again in (True, False):
+            panel.axes.preview.setChecked(True)
+            session = panel._session
+            session._kill()
+            self.assertTrue(wait_until(session.has_ended, 10))
+            self.settle()
+            panel.axes.preview.setChecked(False)
+            if again:
+                panel.axes.preview.setChecked(True)
+                self.settle()
+                self.assertIsNotNone(panel.axes.shown, panel.form.status.text())
+                self.assertIsNot(panel._session, session)
+                panel.axes.preview.setChecked(False)
+                panel._session.close()
+        with mock.patch.object(FreeCAD.Console, "PrintError", create=True) as error:
+            self.press("Cancel")
+        self.assertEqual(error.call_args_list, [])
+        self.assertFalse(FreeCADGui.Control.activeDialog())
+
     def test_a_part_that_changes(self):
         panel = self.panel
         panel.hint.begin()

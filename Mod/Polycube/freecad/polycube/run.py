@@ -45,13 +45,15 @@ class Child:
 
     def wait(self):
         """Until the end; of a process that was killed."""
-        self._process.waitForFinished()
+        if not self._ended:
+            self._process.waitForFinished()
 
     def last_words(self):
         return self._err
 
     def _kill(self):
-        job.kill_tree(self.processId())
+        if not self._ended:  # the QProcess goes with its end
+            job.kill_tree(self.processId())
 
     def _read_output(self):
         self._out += bytes(self._process.readAllStandardOutput()).decode("utf-8", "replace")

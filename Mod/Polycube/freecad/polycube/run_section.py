@@ -10,6 +10,7 @@ from .words import noop, tr
 
 #: The mesher's stages, in the order of a mesh.
 _STAGES = {
+    "start": noop("Starting the mesher"),
     "cad": noop("Reading the part"),
     "tet": noop("Filling the part with tetrahedra"),
     "label": noop("Choosing axes of faces"),

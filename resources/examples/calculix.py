@@ -58,16 +58,26 @@ UNITS = {
 }
 
 
+#: What FreeCAD 1.x does without: a direction that is neither free nor displaced is fixed.
+FIXES = {axis + "Fix" for axis in "xyz"}
+
+
 def add_constraint(analysis, kind, part, names, **values):
-    """A constraint of FreeCAD's ("Force", "Pressure", ...) on entities of the part ("Face3", ...; none: on all of it). Values that UNITS lists are in those units."""
+    """A constraint of FreeCAD's ("Force", "Pressure", ...) on entities of the part ("Face3", ...; none: on all of it).
+
+    Values are named as in 0.20; those that UNITS lists are in those units.
+    """
     obj = analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(analysis.Document, kind))[0]
     if names:
         obj.References = [(part, name) for name in names]
     for name, value in values.items():
+        here = next((one for one in (name, name[0].upper() + name[1:]) if one in obj.PropertiesList), None)  # 1.x has some with a capital
+        if here is None and name in FIXES:
+            continue
         if name in UNITS:
-            set_quantity(obj, name, value, UNITS[name])
+            set_quantity(obj, here or name, value, UNITS[name])
         else:
-            setattr(obj, name, value)
+            setattr(obj, here or name, value)
     return obj
 
 

@@ -65,6 +65,11 @@ def gravity(weight):
     return direction.normalize() * size if direction.Length else direction
 
 
+def says_that_nothing_holds(line):
+    """Whether FreeCAD refuses an analysis with this line because it knows no support in it."""
+    return any(words in line for words in ("Neither constraint fixed nor", "No mechanical boundary conditions"))  # 0.20; 1.x
+
+
 def qt_number(flag):
     """A Qt flag as int: PySide6 keeps it in `value`, PySide2 is one already."""
     return int(getattr(flag, "value", flag))

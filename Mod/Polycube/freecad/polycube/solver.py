@@ -118,7 +118,7 @@ def prepared(analysis, solver, folder):
         tools.setup_working_dir(folder)
     trouble = [line for line in tools.check_prerequisites().splitlines() if line.strip()]
     if any(kind in ("bearing", "spring") for kind, _ in _special(analysis)):
-        trouble = [line for line in trouble if "Neither constraint fixed nor" not in line]  # these hold it too
+        trouble = [line for line in trouble if not compat.says_that_nothing_holds(line)]  # these hold it too
     if trouble:
         if os.path.basename(tools.working_dir.rstrip("/")).startswith("fcfem_"):  # a new one that FreeCAD makes for every run
             os.rmdir(tools.working_dir)

@@ -9,6 +9,7 @@ import sys
 from dataclasses import dataclass
 from typing import Callable
 
+import FreeCAD
 import numpy as np
 import Part
 from FreeCAD import Vector
@@ -320,8 +321,6 @@ _FLUX, _FILM, _RATE = 50000.0, 2000.0, 10000.0  # W/m2, W/m2/K, W/kg
 
 
 def body_heat():
-    import FreeCAD
-
     return heat("BodyHeatSource", **{"HeatSource" if FreeCAD.Version()[0] == "0" else "DissipationRate": _RATE})
 
 
@@ -332,6 +331,7 @@ def body_heat_exact():
 
 
 # Self weight: a bar that hangs.
+_GRAVITY = 9806.0 if FreeCAD.Version()[0] == "0" else 9806.65
 
 
 def hanging():
@@ -342,7 +342,7 @@ def hanging():
 
 
 def hanging_end(field):
-    exact = -DENSITY * 9806 * 100**2 / 2 / YOUNG
+    exact = -DENSITY * _GRAVITY * 100**2 / 2 / YOUNG
     return abs(np.mean(field.displacement[field.where(z, 0), 2]) / exact - 1)
 
 

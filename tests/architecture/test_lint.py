@@ -25,6 +25,8 @@ def scripts():
 
 
 class Lint(unittest.TestCase):
+    maxDiff = None  # findings are told in full
+
     def run_on(self, names, tool, *arguments):
         self.assertTrue(names)
         if not shutil.which(tool):

@@ -15,7 +15,7 @@ from gui_support import GuiTest, process_events, wait_until
 from PySide import QtGui
 
 from freecad import polycube
-from freecad.polycube import task_panel
+from freecad.polycube import shapes, task_panel
 
 OPENINGS = int(os.environ.get("POLYCUBE_OPENINGS", "24"))
 
@@ -198,11 +198,11 @@ class Gone(GuiTest):
             Name = None
 
         Undone.Document = Document
-        self.assertFalse(task_panel._exists(Undone))
-        self.assertFalse(task_panel._exists(None))
-        self.assertTrue(task_panel._exists(self.box))
+        self.assertFalse(shapes.exists(Undone))
+        self.assertFalse(shapes.exists(None))
+        self.assertTrue(shapes.exists(self.box))
         self.document.removeObject(self.box.Name)
-        self.assertFalse(task_panel._exists(self.box))
+        self.assertFalse(shapes.exists(self.box))
 
     def errors_of(self, deed):
         """What goes wrong in slots meanwhile: Qt leaves it to sys.excepthook."""

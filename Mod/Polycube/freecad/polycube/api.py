@@ -365,6 +365,7 @@ def _given(**values):
 def _check_object(part):
     if part is None or not hasattr(part, "Document"):
         raise InvalidInput("a document object with a shape is needed")
+    _check_exists(part)
 
 
 def _check_analysis(analysis, beside):
@@ -379,6 +380,12 @@ def _check_mesh(obj):
 
     if not objects.is_polycube(obj):
         raise InvalidInput("{} is no mesh of Polycube".format(getattr(obj, "Label", obj)))
+    _check_exists(obj)
+
+
+def _check_exists(obj):
+    if not shapes.exists(obj):
+        raise InvalidInput("an object that is needed, or its document, is gone")
 
 
 def _tell_uncaptured(part, analysis):

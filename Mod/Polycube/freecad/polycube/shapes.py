@@ -134,6 +134,14 @@ def coincide(a, b, reach):
     return abs(own - other) <= least + RELATIVE_TOLERANCE * other and a.CenterOfMass.isEqual(b.CenterOfMass, reach)
 
 
+def exists(obj):
+    """Whether the object is still in its document. One that was undone lives on for redo, without a name, and writing to it crashes FreeCAD."""
+    try:
+        return obj is not None and bool(obj.Name) and obj.Document.getObject(obj.Name) == obj
+    except (ReferenceError, RuntimeError, AttributeError):  # deleted; out of its document; its document closed
+        return False
+
+
 def is_seam(shape, edge):
     """Whether an edge of the shape is one where a round face closes."""
     import Part

@@ -39,14 +39,6 @@ _FINER, _SMOOTH = 0.7, 15.0
 _LISTED = 6
 
 
-def _exists(obj):
-    """Whether the object is still in its document. One that was undone lives on for redo, without a name, and writing to it crashes FreeCAD."""
-    try:
-        return obj is not None and bool(obj.Name) and obj.Document.getObject(obj.Name) == obj
-    except (ReferenceError, RuntimeError, AttributeError):  # deleted; out of its document; its document closed
-        return False
-
-
 class MeshPanel:
     """Apply runs the mesher, Cancel stops it, OK is refused while it runs.
 
@@ -420,7 +412,7 @@ class MeshPanel:
         """Object, mesh and place in the analysis; returns warnings."""
         document = FreeCAD.getDocument(self.document_name)
         self.obj = self.obj if self.mesh_exists() else None
-        analysis = self.analysis if _exists(self.analysis) else None
+        analysis = self.analysis if shapes.exists(self.analysis) else None
         is_new = self.obj is None
         with api.transaction(document, tr("Hexahedral mesh from shape") if is_new else tr(_TITLE)):
             if is_new:
@@ -477,17 +469,17 @@ class MeshPanel:
     # --- what sections ask ---------------------------------------------------------------------------------------------------
 
     def part_exists(self):
-        return _exists(self.part)
+        return shapes.exists(self.part)
 
     def mesh_exists(self):
-        return _exists(self.obj)
+        return shapes.exists(self.obj)
 
     def document_is_open(self):
         return self.document_name in FreeCAD.listDocuments()
 
     def beside(self):
         """What the mesh will be beside: its object or its analysis, as far as there are any."""
-        return next(filter(_exists, (self.obj, self.analysis_box.chosen())), None)
+        return next(filter(shapes.exists, (self.obj, self.analysis_box.chosen())), None)
 
     def live_session(self, options):
         """The session of the part as it is now, begun with these options where there is none yet. It is a process of its own until the panel is closed."""
@@ -545,7 +537,7 @@ class MeshPanel:
         was_shown, results = self._shown_before
         if not was_shown:
             self.obj.ViewObject.hide()
-        for mesh in filter(_exists, results):
+        for mesh in filter(shapes.exists, results):
             mesh.ViewObject.show()
 
     def select(self, entities):

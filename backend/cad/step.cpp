@@ -28,8 +28,10 @@
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <set>
+#include <string_view>
 #if OCC_VERSION_HEX >= 0x070800
 #include <StepData_Factors.hxx>
 #endif
@@ -48,7 +50,14 @@ using Representation = opencascade::handle<StepRepr_Representation>;
 /// A file that seems to end when the monitor wants a stop: OCCT's parser has no other way out.
 class StoppableFile : public std::filebuf {
  public:
-  StoppableFile(const std::string& path, const Monitor& monitor) : monitor_(monitor) { open(path, std::ios::in | std::ios::binary); }
+  StoppableFile(const std::string& path, const Monitor& monitor) : monitor_(monitor) {
+    open(path, std::ios::in | std::ios::binary);
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // OCCT does not know it
+    std::array<char, kByteOrderMark.size()> start{};
+    if (std::filebuf::xsgetn(start.data(), start.size()) != static_cast<std::streamsize>(start.size()) ||
+        std::string_view(start.data(), start.size()) != kByteOrderMark)
+      pubseekpos(0);
+  }
 
  protected:
   int_type underflow() override { return OcctProgress::stopped(monitor_) ? traits_type::eof() : std::filebuf::underflow(); }

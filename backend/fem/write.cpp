@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
@@ -12,7 +14,8 @@ namespace {
 enum class Format { kInp, kUnv, kVtu, kMed, kMedit };
 
 Format format_of(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
+  std::string suffix = std::filesystem::path(path).extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (suffix == ".inp") return Format::kInp;
   if (suffix == ".unv") return Format::kUnv;
   if (suffix == ".vtu") return Format::kVtu;

@@ -122,8 +122,9 @@ class Paths(FolderTest):
         part = pathlib.Path(self.save(box()))
         mesh = _polycube.mesh(path=part, size=2, order=1)
         np.testing.assert_array_equal(mesh.nodes, _polycube.mesh(path=str(part), size=2, order=1).nodes)
-        mesh.write(part.with_suffix(".inp"))
-        self.assertTrue(part.with_suffix(".inp").exists())
+        for suffix in (".inp", ".INP"):
+            mesh.write(part.with_suffix(suffix))
+            self.assertTrue(part.with_suffix(suffix).exists())
         for refused in (pathlib.Path(self.path("missing.step")), pathlib.Path()):
             with self.subTest(refused), self.assertRaises(_polycube.InvalidInput):
                 _polycube.mesh(path=refused)

@@ -98,6 +98,8 @@ LabelledPart labelled_solids(const ConformalModel& model, const ConformalLabels&
 }
 
 LabelledPart label_part(const Assembly& assembly, const MeshOptions& options, const Monitor& monitor, Until until) {
+  // Of one solid no more is made than is looked at: a session would go on to blocks.
+  if (assembly.solids.size() == 1) return label_part(assembly.solids.front(), options, monitor, until);
   return AssemblySession(assembly, options).labels(options, monitor, until);
 }
 

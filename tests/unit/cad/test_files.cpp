@@ -254,9 +254,7 @@ TEST(Files, TwoEntitiesOfOneNumberAreRefused) {
   EXPECT_THAT(refusal_of_step(replaced(step, "PRODUCT('", "PRODUCT('it's #7 = 7 ")), "accepted");
 }
 
-TEST(Files, AByteOrderMarkIsPassedOver) {
-  EXPECT_THAT(refusal_of_step("\xEF\xBB\xBF" + step_of(shapes::box(1, 2, 3))), "accepted");
-}
+TEST(Files, AByteOrderMarkIsPassedOver) { EXPECT_THAT(refusal_of_step("\xEF\xBB\xBF" + step_of(shapes::box(1, 2, 3))), "accepted"); }
 
 TEST(Files, NumbersOutOfRangeAreRefused) {
   const std::string plate = shapes::plate_with_hole(10, 8, 2, 1.5);

@@ -21,22 +21,25 @@ def fingerprint(mesh):
 
 
 def remember(obj, mesh):
-    """Keeps the cells that the object gets, and those that it has, for undo and redo. Returns the fingerprint of what it gets."""
-    kept = _remembered.setdefault((obj.Document.Name, obj.Name), [])
-    for one in (Fem.FemMesh(obj.FemMesh), mesh):
-        mark = fingerprint(one)
-        kept[:] = [pair for pair in kept if pair[0] != mark] + [(mark, one)]
-    del kept[:-_KEPT]
-    return fingerprint(mesh)
+    """Keeps the cells that the object gets, and those that it has, for undo and redo, where its document has undo. Returns the fingerprint of what it gets."""
+    mark = fingerprint(mesh)
+    if obj.Document.UndoMode:
+        kept = _remembered.setdefault((obj.Document.Name, obj.Name), [])
+        before = fingerprint(obj.FemMesh)
+        if before not in dict(kept):  # the last one that it got is there already
+            kept.append((before, Fem.FemMesh(obj.FemMesh)))
+        kept[:] = [pair for pair in kept if pair[0] != mark] + [(mark, mesh)]
+        del kept[:-_KEPT]
+    return mark
 
 
 def put_back(obj):
     """Gives the object the cells that its properties speak of, where it has others and those are remembered."""
     if obj.MeshedCells == fingerprint(obj.FemMesh):
         return
-    for mark, mesh in _remembered.get((obj.Document.Name, obj.Name), ()):
-        if mark == obj.MeshedCells:
-            obj.FemMesh = mesh
+    kept = dict(_remembered.get((obj.Document.Name, obj.Name), ()))
+    if obj.MeshedCells in kept:
+        obj.FemMesh = kept[obj.MeshedCells]
 
 
 def forget(document):

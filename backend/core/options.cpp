@@ -11,16 +11,12 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr std::array<const char*, 6> kLabelNames{"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-// Without a size: the longest edge, and the one to come near to where nothing asks for smaller ones (27 parts: with a 15th for both the cells' mean scaled
-// Jacobian is lower).
-constexpr double kLongestPerDiagonal = 15, kSizesPerDiagonal = 20;
-// Through a wall that bends: a quadratic element is linear in strain, two show where it turns; three linear ones do as well with C3D8I.
-constexpr int kLayersOfSecondOrder = 2, kLayersOfFirstOrder = 3;
 // Degrees: axes typed with four digits are as square as this.
 constexpr double kSquare = 0.1;
 
@@ -427,19 +423,19 @@ Mat3 frame_of(const FrameAxes& axes) {
 
 double effective_size(const MeshOptions& options, double diagonal) {
   if (options.size > 0) return options.size;
-  const double longest = std::min(diagonal / kLongestPerDiagonal, options.max_size > 0 ? options.max_size : diagonal);
-  return longest * kLongestPerDiagonal / kSizesPerDiagonal;
+  const double longest = std::min(diagonal / kCoreTuning.longest_per_diagonal, options.max_size > 0 ? options.max_size : diagonal);
+  return longest * kCoreTuning.longest_per_diagonal / kCoreTuning.sizes_per_diagonal;
 }
 
 double effective_max_size(const MeshOptions& options, double diagonal) {
   if (options.max_size > 0) return options.max_size;
   const bool automatic = options.size == 0 && options.hexes == 0 && !options.coarsest;
-  return automatic ? diagonal / kLongestPerDiagonal : std::numeric_limits<double>::infinity();
+  return automatic ? diagonal / kCoreTuning.longest_per_diagonal : std::numeric_limits<double>::infinity();
 }
 
 int effective_min_layers(const MeshOptions& options) {
   if (options.min_layers > 0) return options.min_layers;
-  return options.coarsest ? 1 : options.order == 2 ? kLayersOfSecondOrder : kLayersOfFirstOrder;
+  return options.coarsest ? 1 : options.order == 2 ? kCoreTuning.layers_of_second_order : kCoreTuning.layers_of_first_order;
 }
 
 int effective_per_circle(const MeshOptions& options) { return options.coarsest ? 0 : options.per_circle; }

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/tuning.h"
+
 namespace polycube {
 namespace {
-
-// Of its volume that a tet keeps at least when one of its nodes is moved.
-constexpr double kLeastShare = 0.1;
 
 double six_volumes(const std::array<Vec3, 4>& p) { return (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]); }
 
@@ -62,7 +61,7 @@ bool TetEditor::move(int node, const Vec3& to) {
       before[k] = mesh_.points[n];
       after[k] = n == node ? to : mesh_.points[n];
     }
-    if (six_volumes(after) <= kLeastShare * six_volumes(before)) return false;
+    if (six_volumes(after) <= kCoreTuning.least_share * six_volumes(before)) return false;
   }
   mesh_.points[node] = to;
   return true;

@@ -15,16 +15,11 @@
 #include "cad/fuse.h"
 #include "cad/occt.h"
 #include "cad/shape.h"
+#include "cad/tuning.h"
 #include "core/error.h"
 
 namespace polycube {
 namespace {
-
-// Of the smaller solid's volume: a common part below this is rounding in the file, not an overlap (guess).
-constexpr double kOverlap = 1e-6;
-
-// Of the smaller solid's diagonal: solids so near to each other are meant to touch (guess).
-constexpr double kGap = 1e-4;
 
 std::string number_text(double value) {
   char text[32];
@@ -56,7 +51,7 @@ void refuse_overlaps(const Assembly& assembly, GeneralFuse& fuse) {
       }
       const int other = owner[static_cast<std::size_t>(at) - 1];
       const double common = volume_of(piece);
-      if (common > kOverlap * std::min(assembly.solids[s].volume(), assembly.solids[other].volume()))
+      if (common > kCadTuning.overlap * std::min(assembly.solids[s].volume(), assembly.solids[other].volume()))
         throw InvalidInput(assembly.name(other + 1) + " and " + assembly.name(s + 1) + " overlap: they have " + number_text(common) + " mm^3 in common");
     }
   }
@@ -179,7 +174,7 @@ void tell_gaps(Assembly& assembly, const Monitor& monitor) {
   for (std::size_t a = 0; a < assembly.solids.size(); ++a) {
     for (std::size_t b = a + 1; b < assembly.solids.size(); ++b) {
       const CadModel &one = assembly.solids[a], &other = assembly.solids[b];
-      const double reach = kGap * std::min(one.diagonal(), other.diagonal());
+      const double reach = kCadTuning.gap * std::min(one.diagonal(), other.diagonal());
       const std::array pair{static_cast<int>(a) + 1, static_cast<int>(b) + 1};
       const auto is_pair = [&](const Interface& i) { return i.solids == pair; };
       if (std::abs(common_thickness(one.shape().box, other.shape().box)) > reach) continue;

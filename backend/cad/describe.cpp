@@ -23,16 +23,12 @@
 #include <numbers>
 
 #include "cad/shape.h"
+#include "cad/tuning.h"
 #include "core/error.h"
 #include "core/union_find.h"
 
 namespace polycube {
 namespace {
-
-constexpr int kBorderPieces = 48;  // segments of a curved border in (u, v)
-constexpr int kEdgeSamples = 49;   // of an edge without closed form
-constexpr int kFaceSamples = 24;   // a side of the grid of a face without closed form
-constexpr int kAngleSamples = 9;   // inner points of an edge where the dihedral angle is taken
 
 Vec2 to_vec(const gp_Pnt2d& p) { return {p.X(), p.Y()}; }
 
@@ -73,7 +69,8 @@ EdgeGeometry edge_geometry(const TopoDS_Edge& edge) {
   BndLib_Add3dCurve::Add(adaptor, 0, box);
   g.box = to_box(box);
   if (g.closed_form.index() == 0)
-    for (int i = 0; i < kEdgeSamples; ++i) g.samples.push_back(polycube::to_vec(g.curve->Value(g.first + (g.last - g.first) * i / (kEdgeSamples - 1))));
+    for (int i = 0; i < kCadTuning.edge_samples; ++i)
+      g.samples.push_back(polycube::to_vec(g.curve->Value(g.first + (g.last - g.first) * i / (kCadTuning.edge_samples - 1))));
   return g;
 }
 
@@ -96,7 +93,7 @@ void draw_border(const EdgeUse& use, double first, double last, bool wire_forwar
   Handle(Geom2d_Curve) curve = use.curve;
   while (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve)) curve = trimmed->BasisCurve();
   const bool straight = !Handle(Geom2d_Line)::DownCast(curve).IsNull();
-  const int pieces = straight ? 1 : kBorderPieces;
+  const int pieces = straight ? 1 : kCadTuning.border_pieces;
   for (int i = 0; i < pieces; ++i) {
     const double from = static_cast<double>(i) / pieces, to = static_cast<double>(i + 1) / pieces;
     const auto at = [&](double s) { return to_vec(use.curve->Value(first + (last - first) * (wire_forward ? s : 1 - s))); };
@@ -205,21 +202,20 @@ void sample_face(const CadModel::Shape& shape, FaceGeometry& g) {
     g.samples.push_back(polycube::to_vec(g.surface->Value(uv[0], uv[1])));
   };
   const Vec2 size = g.domain.sizes();
-  for (int i = 0; i < kFaceSamples; ++i)
-    for (int j = 0; j < kFaceSamples; ++j) {
-      const Vec2 uv = g.domain.min() + Vec2((i + 0.5) / kFaceSamples * size[0], (j + 0.5) / kFaceSamples * size[1]);
+  for (int i = 0; i < kCadTuning.face_samples; ++i)
+    for (int j = 0; j < kCadTuning.face_samples; ++j) {
+      const Vec2 uv = g.domain.min() + Vec2((i + 0.5) / kCadTuning.face_samples * size[0], (j + 0.5) / kCadTuning.face_samples * size[1]);
       if (inside(shape, g, uv)) add(uv);
     }
   for (const BorderSegment& segment : g.border) {
-    const int pieces = segment.margin > 1e-8 || segment.edge == 0 ? 1 : kFaceSamples;
+    const int pieces = segment.margin > 1e-8 || segment.edge == 0 ? 1 : kCadTuning.face_samples;
     for (int k = 0; k < pieces; ++k) add(segment.a + (segment.b - segment.a) * k / pieces);
   }
 }
 
 /// Exporters write cylinders as lines revolved and planes as B-splines; later stages ask what a face is, not how it was written.
 void recognise(const FaceGeometry& g, CadFace& info) {
-  constexpr double kAngular = 1e-9, kLinear = 1e-7;
-  if (const GeomLib_IsPlanarSurface planar(g.surface, kLinear); planar.IsPlanar()) {
+  if (const GeomLib_IsPlanarSurface planar(g.surface, kCadTuning.linear); planar.IsPlanar()) {
     info.kind = SurfaceKind::kPlane;
     info.axis = g.sign * surface_normal(g, g.domain.center());
     return;
@@ -228,19 +224,19 @@ void recognise(const FaceGeometry& g, CadFace& info) {
   const GeomAdaptor_Surface adaptor(g.surface);
   const gp_Ax1 axis = adaptor.AxeOfRevolution();
   const Handle(Adaptor3d_Curve) meridian = adaptor.BasisCurve();
-  if (meridian->GetType() == GeomAbs_Line && meridian->Line().Direction().IsParallel(axis.Direction(), kAngular)) {
+  if (meridian->GetType() == GeomAbs_Line && meridian->Line().Direction().IsParallel(axis.Direction(), kCadTuning.angular)) {
     info.kind = SurfaceKind::kCylinder;
     info.radius = gp_Lin(axis).Distance(meridian->Line().Location());
   } else if (meridian->GetType() == GeomAbs_Line) {
-    if (gp_Lin(axis).Distance(meridian->Line()) < kLinear) info.kind = SurfaceKind::kCone;  // else a hyperboloid
+    if (gp_Lin(axis).Distance(meridian->Line()) < kCadTuning.linear) info.kind = SurfaceKind::kCone;  // else a hyperboloid
   } else if (meridian->GetType() == GeomAbs_Circle) {
     const gp_Circ circle = meridian->Circle();
     const double off = gp_Lin(axis).Distance(circle.Location());
-    if (!circle.Axis().Direction().IsNormal(axis.Direction(), kAngular)) return;
-    if (std::abs(circle.Axis().Direction().XYZ().Dot(circle.Location().XYZ() - axis.Location().XYZ())) > kLinear) return;
-    info.kind = off < kLinear ? SurfaceKind::kSphere : SurfaceKind::kTorus;
+    if (!circle.Axis().Direction().IsNormal(axis.Direction(), kCadTuning.angular)) return;
+    if (std::abs(circle.Axis().Direction().XYZ().Dot(circle.Location().XYZ() - axis.Location().XYZ())) > kCadTuning.linear) return;
+    info.kind = off < kCadTuning.linear ? SurfaceKind::kSphere : SurfaceKind::kTorus;
     info.radius = circle.Radius();
-    if (off < kLinear) info.centre = polycube::to_vec(circle.Location());
+    if (off < kCadTuning.linear) info.centre = polycube::to_vec(circle.Location());
   }
 }
 
@@ -318,18 +314,16 @@ double dihedral_angle(const CadModel::Shape& shape, const EdgeGeometry& edge, do
 
 // Normals a little way off the point that a degenerate edge is: off their mean by more than 10 degrees, a cone's tip and not a sphere's pole.
 bool is_tip(const CadModel::Shape& shape, const EdgeGeometry& edge) {
-  constexpr double kOff = 1e-3;
-  const double kPole = std::cos(std::numbers::pi / 18);
   const EdgeUse& use = edge.uses.front();
   const FaceGeometry& face = shape.face(use.face);
-  const Vec2 inwards = kOff * (face.domain.center() - to_vec(use.curve->Value((edge.first + edge.last) / 2)));
+  const Vec2 inwards = kCadTuning.tip_offset * (face.domain.center() - to_vec(use.curve->Value((edge.first + edge.last) / 2)));
   std::vector<Vec3> normals;
   Vec3 mean = Vec3::Zero();
-  for (int i = 1; i <= kAngleSamples; ++i) {
-    normals.push_back(surface_normal(face, to_vec(use.curve->Value(edge.first + (edge.last - edge.first) * i / (kAngleSamples + 1))) + inwards));
+  for (int i = 1; i <= kCadTuning.angle_samples; ++i) {
+    normals.push_back(surface_normal(face, to_vec(use.curve->Value(edge.first + (edge.last - edge.first) * i / (kCadTuning.angle_samples + 1))) + inwards));
     mean += normals.back();
   }
-  return std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return n.dot(mean.normalized()) < kPole; });
+  return std::any_of(normals.begin(), normals.end(), [&](const Vec3& n) { return n.dot(mean.normalized()) < std::cos(kCadTuning.tip_angle); });
 }
 
 void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id, CadEdge& info) {
@@ -342,8 +336,8 @@ void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id,
   info.seam = info.faces[0] == info.faces[1];
   info.min_angle = 2 * std::numbers::pi;
   info.max_angle = 0;
-  for (int i = 1; i <= kAngleSamples; ++i) {
-    const double angle = dihedral_angle(shape, edge, edge.first + (edge.last - edge.first) * i / (kAngleSamples + 1));
+  for (int i = 1; i <= kCadTuning.angle_samples; ++i) {
+    const double angle = dihedral_angle(shape, edge, edge.first + (edge.last - edge.first) * i / (kCadTuning.angle_samples + 1));
     info.min_angle = std::min(info.min_angle, angle);
     info.max_angle = std::max(info.max_angle, angle);
   }
@@ -351,10 +345,9 @@ void finish_edge(const CadModel::Shape& shape, const EdgeGeometry& edge, int id,
 
 // Edges far below any cell's size, which files of other systems leave between faces that just fail to meet, cannot have mesh edges of their own.
 void join_tiny_edges(std::vector<CadEdge>& edges, int vertices, double diagonal) {
-  constexpr double kTiny = 1e-5;
   UnionFind same(static_cast<std::size_t>(vertices) + 1);
   for (CadEdge& e : edges) {
-    if (e.degenerate || e.vertices[0] == e.vertices[1] || e.length > kTiny * diagonal) continue;
+    if (e.degenerate || e.vertices[0] == e.vertices[1] || e.length > kCadTuning.tiny_edge * diagonal) continue;
     e.tiny = true;
     same.unite(std::min(e.vertices[0], e.vertices[1]), std::max(e.vertices[0], e.vertices[1]));
   }

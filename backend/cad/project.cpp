@@ -8,11 +8,10 @@
 #include <numbers>
 
 #include "cad/shape.h"
+#include "cad/tuning.h"
 
 namespace polycube {
 namespace {
-
-constexpr int kNewtonSteps = 60;
 
 struct Local {
   Vec3 s, su, sv, suu, suv, svv;
@@ -39,7 +38,7 @@ Vec2 newton_foot(const FaceGeometry& face, const Vec3& p, const Vec2& seed, bool
   Local at = evaluate(face, uv);
   double energy = (at.s - p).squaredNorm();
   int jumps = 0;
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kCadTuning.newton_steps; ++step) {
     const Vec3 d = at.s - p;
     Vec2 gradient(d.dot(at.su), d.dot(at.sv));
     Eigen::Matrix2d first;
@@ -192,7 +191,7 @@ EdgePoint newton_edge(const EdgeGeometry& edge, const Vec3& p, double seed, doub
   gp_Vec d1, d2;
   edge.curve->D2(t, c, d1, d2);
   double energy = (to_vec(c) - p).squaredNorm();
-  for (int step = 0; step < kNewtonSteps; ++step) {
+  for (int step = 0; step < kCadTuning.newton_steps; ++step) {
     const Vec3 d = to_vec(c) - p;
     const double gradient = d.dot(to_vec(d1)), first = d1.SquareMagnitude(), second = first + d.dot(to_vec(d2));
     if (std::abs(gradient) <= 1e-14 * std::sqrt(first) * (1 + to_vec(c).norm())) break;

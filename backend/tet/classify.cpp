@@ -8,22 +8,19 @@
 #include <tuple>
 
 #include "core/error.h"
+#include "tet/tuning.h"
 
 namespace polycube {
 namespace {
 
-constexpr double kFar = 1e-3;   // of the diagonal: nodes lie on their entity up to the CAD's own tolerance
-constexpr double kNear = 1e-6;  // of the diagonal: no doubt is left
-constexpr int kProbes = 6;
-
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// At most kProbes, spread over the whole list.
+/// At most as many as are probed, spread over the whole list.
 template <class T>
 std::vector<T> thin(const std::vector<T>& all) {
-  if (all.size() <= kProbes) return all;
+  if (all.size() <= kTetTuning.probes) return all;
   std::vector<T> some;
-  for (std::size_t k = 0; k < kProbes; ++k) some.push_back(all[k * (all.size() - 1) / (kProbes - 1)]);
+  for (std::size_t k = 0; k < kTetTuning.probes; ++k) some.push_back(all[k * (all.size() - 1) / (kTetTuning.probes - 1)]);
   return some;
 }
 
@@ -84,13 +81,13 @@ std::map<int, int> match(const RawMesh& raw, const CadModel& model, int dim) {
       return std::all_of(probe.nodes.begin(), probe.nodes.end(), [&](const Vec3& p) { return distance(model, dim, id, p) <= reach * model.diagonal(); });
     };
     const auto consider = [&](int id) {
-      if ((dim == 1 && model.edge(id).degenerate) || !all_within(id, kFar)) return;
+      if ((dim == 1 && model.edge(id).degenerate) || !all_within(id, kTetTuning.far)) return;
       double sum = 0;
       for (const Vec3& p : probe.centres) sum += distance(model, dim, id, p);
       if (sum < least) least = sum, best = id;
     };
     const int expected = tag >= 1 && at(tag) <= order.size() ? order[at(tag) - 1] : 0;
-    if (probe.own && expected > 0 && !(dim == 1 && model.edge(expected).degenerate) && all_within(expected, kNear)) best = expected;
+    if (probe.own && expected > 0 && !(dim == 1 && model.edge(expected).degenerate) && all_within(expected, kTetTuning.near)) best = expected;
     for (const int id : order) {
       if (best != 0 && best == expected) break;
       consider(id);

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "tet/tuning.h"
 #include "tet/worker/protocol.h"
 
 extern char** environ;
@@ -28,8 +29,6 @@ namespace polycube {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
-// Times the limit on the processor's time, by the clock: a child that waits for something works no more.
-constexpr double kPatience = 4;
 
 /// Kills and buries the child unless it has been buried.
 class Child {
@@ -115,7 +114,7 @@ std::string run_worker(const std::vector<std::string>& command, const std::strin
   int status = 0;
   while (!child.ended(status)) {
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (child.worked() > seconds || elapsed > kPatience * seconds) return "Gmsh ran longer than " + std::to_string(std::lround(seconds)) + " s";
+    if (child.worked() > seconds || elapsed > kTetTuning.patience * seconds) return "Gmsh ran longer than " + std::to_string(std::lround(seconds)) + " s";
     monitor.progress("tet", 0.9 * elapsed / (elapsed + 2));
     std::this_thread::sleep_for(kPoll);
   }

@@ -5,22 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "tet/tuning.h"
+
 namespace polycube {
 namespace {
 
-constexpr double kFinest = 6;  // smallest size, as a divisor of the target
-// On a face that makes out this share of the surface (a wire, a spring), finer as long as it gets no more than about twice this many triangles.
-constexpr double kMainFace = 0.25;
-constexpr double kMainTriangles = 8000;
-constexpr int kSamples = 9;  // of a CAD edge
-// The curvature that counts is exceeded on a quarter of the samples only: a cone's tip must not refine the whole cone.
-constexpr double kQuantile = 0.75;
-constexpr double kTiny = 1e-6;  // step in (u, v) to measure the speed of a parameter
-constexpr double kStep = 1e-5;  // step in space, of the diagonal
-
 double quantile(std::vector<double> values) {
   if (values.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(kQuantile * static_cast<double>(values.size() - 1));
+  const auto rank = static_cast<std::ptrdiff_t>(kTetTuning.quantile * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[static_cast<std::size_t>(rank)];
 }
@@ -32,7 +24,7 @@ double circle_curvature(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 double edge_curvature(const CadModel& model, int id) {
-  const std::vector<Vec3> points = model.edge_samples(id, kSamples);
+  const std::vector<Vec3> points = model.edge_samples(id, kTetTuning.samples);
   std::vector<double> curvature;
   for (std::size_t i = 1; i + 1 < points.size(); ++i) curvature.push_back(circle_curvature(points[i - 1], points[i], points[i + 1]));
   return quantile(curvature);
@@ -45,17 +37,17 @@ double face_curvature(const CadModel& model, int id) {
   if (face.kind == SurfaceKind::kCylinder || face.kind == SurfaceKind::kSphere || face.kind == SurfaceKind::kTorus) return 1 / face.radius;
   std::vector<double> curvature;
   for (const int edge : face.edges)
-    for (const Vec3& p : model.edge_samples(edge, kSamples)) {
+    for (const Vec3& p : model.edge_samples(edge, kTetTuning.samples)) {
       const Vec2 uv = model.project_to_face(id, p).uv;
       const Vec3 point = model.face_point(id, uv), normal = model.face_normal(id, uv);
       double largest = 0;
       for (int k = 0; k < 2; ++k) {
         // A step of known length in space, whatever the parametrisation.
         Vec2 next = uv;
-        next[k] += kTiny;
-        const double speed = (model.face_point(id, next) - point).norm() / kTiny;
+        next[k] += kTetTuning.parameter_step;
+        const double speed = (model.face_point(id, next) - point).norm() / kTetTuning.parameter_step;
         if (speed == 0) continue;
-        next[k] = uv[k] + kStep * model.diagonal() / speed;
+        next[k] = uv[k] + kTetTuning.step * model.diagonal() / speed;
         const double way = (model.face_point(id, next) - point).norm();
         if (way > 0) largest = std::max(largest, (model.face_normal(id, next) - normal).norm() / way);
       }
@@ -68,7 +60,7 @@ double face_curvature(const CadModel& model, int id) {
 
 EntitySizes entity_sizes(const CadModel& model, double size, double per_circle) {
   EntitySizes sizes;
-  const double finest = size / kFinest;
+  const double finest = size / kTetTuning.finest;
   const auto from_curvature = [&](double curvature, double least) {
     if (per_circle <= 0 || curvature <= 0) return size;
     return std::clamp(2 * std::numbers::pi / (per_circle * curvature), least, size);
@@ -78,7 +70,7 @@ EntitySizes entity_sizes(const CadModel& model, double size, double per_circle) 
   std::vector<double> by_number(static_cast<std::size_t>(model.face_count()) + 1, size);
   for (const int f : model.brep_order(2)) {
     const double area = model.face(f).area;
-    const double least = area < kMainFace * surface ? finest : std::min(finest, std::sqrt(area / kMainTriangles));
+    const double least = area < kTetTuning.main_face * surface ? finest : std::min(finest, std::sqrt(area / kTetTuning.main_triangles));
     sizes.faces.push_back(from_curvature(face_curvature(model, f), least));
     by_number[static_cast<std::size_t>(f)] = sizes.faces.back();
   }

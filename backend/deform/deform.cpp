@@ -12,12 +12,10 @@
 #include "core/parallel.h"
 #include "deform/foldover.h"
 #include "deform/system.h"
+#include "deform/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Rounds after which the planes of the charts are compared.
-constexpr int kTrialRounds = 4;
 
 Mat3 rotation_by_svd(const Mat3& m) {
   const Eigen::JacobiSVD<Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -139,7 +137,7 @@ PolycuboidMap deform(const TetMesh& mesh, const Mat3& frame, const std::vector<i
   monitor.progress("deform", 0);
   solver.set_up(groups, {0, 1, 2});
   solver.start();
-  const int trial = std::min(options.rotations, kTrialRounds);
+  const int trial = std::min(options.rotations, kDeformTuning.trial_rounds);
   rounds(0, trial);
   for (Chart& c : map.charts) c.value = solver.image()[c.nodes.front()][c.axis];
   // Charts that came out on one plane up to noise are put on it for good, so that their order is no accident.

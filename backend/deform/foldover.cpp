@@ -7,19 +7,10 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "deform/tuning.h"
 
 namespace polycube {
 namespace {
-
-constexpr double kLambda = 0.5;  // weight of keeping volume against keeping angles
-constexpr int kOuter = 12;       // epsilon updates
-constexpr int kInner = 25;       // L-BFGS steps between them
-constexpr int kPatience = 6;     // updates without fewer flips before it ends
-constexpr int kRunaway = 60;     // times the flips at the start: it has run away
-// Largest epsilon. A tet without size costs 2 lambda / epsilon, a good one 3 + 2 lambda: at 0.25 shrinking the part to a point pays.
-constexpr double kWidest = 0.1;
-constexpr double kFall = 0.6;  // of epsilon from one update to the next, at least
-constexpr std::size_t kMemory = 6;
 
 class Problem {
  public:
@@ -121,14 +112,14 @@ class Problem {
     // For negative determinants the plain sum cancels.
     const double chi = det > 0 ? (det + root) / 2 : epsilon * epsilon / (2 * (root - det));
     const double cube_root = std::cbrt(chi), trace = j.squaredNorm(), power = 1 / (cube_root * cube_root);
-    const double energy = elements_[t].volume * (trace * power + kLambda * (det * det + 1) / chi);
+    const double energy = elements_[t].volume * (trace * power + kDeformTuning.lambda * (det * det + 1) / chi);
     if (!force) return energy;
     const double slope = chi / root;  // d chi / d det
     Mat3 cofactor;
     cofactor.col(0) = j.col(1).cross(j.col(2));
     cofactor.col(1) = j.col(2).cross(j.col(0));
     cofactor.col(2) = j.col(0).cross(j.col(1));
-    const double by_det = -2.0 / 3 * trace * power / chi * slope + kLambda * (2 * det / chi - (det * det + 1) / (chi * chi) * slope);
+    const double by_det = -2.0 / 3 * trace * power / chi * slope + kDeformTuning.lambda * (2 * det / chi - (det * det + 1) / (chi * chi) * slope);
     *force = elements_[t].volume * (2 * power * j + by_det * cofactor) * elements_[t].gradient;
     return energy;
   }
@@ -186,7 +177,7 @@ int descend(const Problem& problem, Vector& x, double epsilon, int steps, const 
     if (curvature > 1e-14 * pair.s.norm() * pair.y.norm()) {
       pair.rho = 1 / curvature;
       memory.push_back(std::move(pair));
-      if (memory.size() > kMemory) memory.pop_front();
+      if (memory.size() > kDeformTuning.memory) memory.pop_front();
     }
     const double gain = (e - next_e) / std::abs(e);
     x = std::move(next);
@@ -207,7 +198,7 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
   FoldoverReport report;
   report.collapsed = problem.collapsed();
   int start = -1, idle = 0;
-  double epsilon = kWidest / kFall;
+  double epsilon = kDeformTuning.widest / kDeformTuning.fall;
   Vector best = x;
   for (int outer = 0;; ++outer) {
     const auto [least, flipped] = problem.worst(x);
@@ -219,9 +210,9 @@ FoldoverReport remove_foldovers(const TetMesh& mesh, const std::vector<Element>&
       idle = 0;
     }
     // Charts that no map can realise make the optimisation run away.
-    if (report.flipped == 0 || outer == kOuter || idle > kPatience || flipped > kRunaway * (start + 10)) break;
-    epsilon = least > 0 ? 1e-3 : std::min({std::sqrt(1e-6 + 0.25 * least * least), kWidest, kFall * epsilon});
-    const int steps = descend(problem, x, epsilon, kInner, monitor);
+    if (report.flipped == 0 || outer == kDeformTuning.outer || idle > kDeformTuning.patience || flipped > kDeformTuning.runaway * (start + 10)) break;
+    epsilon = least > 0 ? 1e-3 : std::min({std::sqrt(1e-6 + 0.25 * least * least), kDeformTuning.widest, kDeformTuning.fall * epsilon});
+    const int steps = descend(problem, x, epsilon, kDeformTuning.inner, monitor);
     if (steps == 0) break;
     report.iterations += steps;
   }

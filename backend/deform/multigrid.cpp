@@ -3,30 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deform/tuning.h"
+
 namespace polycube {
 namespace {
-
-constexpr Eigen::Index kCoarsest = 600;  // unknowns that are solved directly
-constexpr double kLeastGain = 0.8;       // share of the unknowns of a level that the next may have
-// Of the geometric mean of the diagonals: weaker couplings do not make unknowns hang together.
-constexpr double kWeak = 0.02;
-// Times the mean entries of a row: the unknown of a chart is a group of its own, or the group would be all that lies along the chart.
-constexpr int kDense = 4;
-// Steps of the power iteration for the largest eigenvalue, and what they may fall short by.
-constexpr int kPowerSteps = 12;
-constexpr double kPowerMargin = 1.1;
 
 // Of the matrix divided by its diagonal.
 double largest_eigenvalue(const SparseRows& matrix, const Vector& diagonal) {
   Vector x(matrix.rows());
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = 1 + static_cast<double>((i * 7919) % 97) / 97 * (i % 2 == 0 ? 1 : -3);
   double value = 1;
-  for (int step = 0; step < kPowerSteps; ++step) {
+  for (int step = 0; step < kDeformTuning.power_steps; ++step) {
     x /= x.norm();
     x = (matrix * x).cwiseQuotient(diagonal);
     value = x.norm();
   }
-  return kPowerMargin * value;
+  return kDeformTuning.power_margin * value;
 }
 
 void smooth_forward(const SparseRows& a, const Vector& diagonal, const Vector& rhs, Vector& x) {
@@ -52,11 +44,11 @@ std::vector<int> aggregate(const SparseRows& matrix) {
   const Vector diagonal = matrix.diagonal();
   const auto dense = [&](Eigen::Index i) {
     const Eigen::Index entries = matrix.outerIndexPtr()[i + 1] - matrix.outerIndexPtr()[i];
-    return entries * n > kDense * matrix.nonZeros();
+    return entries * n > kDeformTuning.dense * matrix.nonZeros();
   };
   const auto near = [&](Eigen::Index i, const auto& visit) {
     for (SparseRows::InnerIterator it(matrix, i); it; ++it) {
-      if (it.col() != i && !dense(it.col()) && std::abs(it.value()) > kWeak * std::sqrt(diagonal[i] * diagonal[it.col()]))
+      if (it.col() != i && !dense(it.col()) && std::abs(it.value()) > kDeformTuning.weak * std::sqrt(diagonal[i] * diagonal[it.col()]))
         visit(it.col(), std::abs(it.value()));
     }
   };
@@ -92,10 +84,10 @@ std::vector<int> aggregate(const SparseRows& matrix) {
 
 Multigrid& Multigrid::compute(SparseRows matrix) {
   levels_.clear();
-  while (matrix.rows() > kCoarsest) {
+  while (matrix.rows() > kDeformTuning.coarsest) {
     const std::vector<int> group = aggregate(matrix);
     const int count = *std::max_element(group.begin(), group.end()) + 1;
-    if (count > kLeastGain * static_cast<double>(matrix.rows())) break;
+    if (count > kDeformTuning.least_gain * static_cast<double>(matrix.rows())) break;
     Level& level = levels_.emplace_back();
     level.matrix.swap(matrix);
     level.diagonal = level.matrix.diagonal();

@@ -2,14 +2,9 @@
 
 #include <Eigen/LU>
 
+#include "deform/tuning.h"
+
 namespace polycube {
-namespace {
-
-// Of the right side: what a solution may leave. A box comes out as it is to 1e-9.
-constexpr double kResidual = 1e-10;
-constexpr int kMostSteps = 200;
-
-}  // namespace
 
 Element make_element(const std::vector<Vec3>& points, const Tet& tet) {
   Mat3 edges;
@@ -48,8 +43,8 @@ Coordinate::Coordinate(const TetMesh& mesh, const std::vector<Element>& elements
   }
   matrix_.resize(count_ - 1, count_ - 1);
   matrix_.setFromTriplets(entries.begin(), entries.end());
-  solver_.setTolerance(kResidual);
-  solver_.setMaxIterations(kMostSteps);
+  solver_.setTolerance(kDeformTuning.residual);
+  solver_.setMaxIterations(kDeformTuning.most_steps);
   solver_.compute(matrix_);
   ok_ = solver_.info() == Eigen::Success;
 }

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "blocks/tuning.h"
 #include "core/error.h"
 #include "core/union_find.h"
 
 namespace polycube {
 namespace {
-
-/// Values nearer than this fraction of the image's extent are one plane: they differ by the rounding of the deformation's solver.
-constexpr double kSamePlane = 1e-9;
 
 void find_planes(const PolycuboidMap& map, SheetCuts& cuts) {
   Vec3 low = map.image.front(), high = low;
@@ -18,7 +16,7 @@ void find_planes(const PolycuboidMap& map, SheetCuts& cuts) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  cuts.tolerance = kSamePlane * (high - low).maxCoeff();
+  cuts.tolerance = kBlocksTuning.same_plane * (high - low).maxCoeff();
   cuts.image = map.image;
   cuts.chart_plane.assign(map.charts.size(), -1);
   for (int axis = 0; axis < 3; ++axis) {
@@ -44,9 +42,6 @@ void find_planes(const PolycuboidMap& map, SheetCuts& cuts) {
   }
 }
 
-/// Fraction of the image's bounding-box face below which a chart's net area is none.
-constexpr double kNoArea = 1e-9;
-
 void find_signs(const TetMesh& mesh, const PolycuboidMap& map, SheetCuts& cuts) {
   cuts.collapsed.assign(map.charts.size(), 0);
   cuts.sign.assign(map.charts.size(), 0);
@@ -60,8 +55,8 @@ void find_signs(const TetMesh& mesh, const PolycuboidMap& map, SheetCuts& cuts) 
       const Vec3 a = cuts.image[mesh.triangles[t][1]] - origin, b = cuts.image[mesh.triangles[t][2]] - origin;
       area += (a[u] * b[v] - a[v] * b[u]) / 2;
     }
-    const double extent = cuts.tolerance / kSamePlane;
-    cuts.collapsed[c] = std::abs(area) <= kNoArea * extent * extent;
+    const double extent = cuts.tolerance / kBlocksTuning.same_plane;
+    cuts.collapsed[c] = std::abs(area) <= kBlocksTuning.no_area * extent * extent;
     // A label can contradict the map, which alone says where the solid is.
     cuts.sign[c] = area > 0 ? 1 : -1;
   }

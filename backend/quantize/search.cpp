@@ -4,19 +4,13 @@
 #include <cmath>
 #include <queue>
 
+#include "quantize/tuning.h"
+
 namespace polycube {
 namespace {
 
 /// All weights together after scaling to integers. Flows stay below twice it.
 constexpr double kWeightSum = 1125899906842624.0;  // 2^50
-/// Objectives nearer than this fraction are ties.
-constexpr double kTie = 1e-11;
-/// Violated constraints whose children are solved before one is chosen to branch on.
-constexpr int kCandidates = 8;
-/// More differences at once than this are cheaper to solve for from nothing.
-constexpr std::size_t kRepairs = 16;
-/// Rounds of rewards, and of those without a better bound.
-constexpr int kRewardRounds = 100, kIdleRounds = 3;
 
 std::array<const std::vector<int>*, 3> values_of(const std::array<AxisFlow, 3>& flows) { return {&flows[0].values(), &flows[1].values(), &flows[2].values()}; }
 
@@ -32,7 +26,7 @@ Search::Search(const QuantizeProblem& problem, const MonotonePaths& paths, int n
     }
   }
   to_integer_ = weights > 0 ? kWeightSum / weights : 1;
-  tie_ = kTie * scale;
+  tie_ = kQuantizeTuning.tie * scale;
   networks_.reserve(3);
   for (const AxisProblem& axis : problem.axes) networks_.emplace_back(axis, to_integer_);
 }
@@ -150,7 +144,7 @@ bool Search::renew(Node& node) {
         if (!node.flows[d]->holds(a)) missing.push_back(a);
       }
       if (missing.empty()) break;
-      if (missing.size() > kRepairs) {
+      if (missing.size() > kQuantizeTuning.repairs) {
         std::vector<Difference> extra = node.decided[d];
         extra.insert(extra.end(), always_[d].begin(), always_[d].end());
         node.flows[d] = solve_axis(d, extra);
@@ -198,7 +192,7 @@ bool Search::raise(Node& node, std::vector<Cut2> violated) {
   FlowInt surplus = 0;
   double bound = node.bound;
   int idle = 0;
-  for (int round = 0; round < kRewardRounds && idle < kIdleRounds; ++round) {
+  for (int round = 0; round < kQuantizeTuning.reward_rounds && idle < kQuantizeTuning.idle_rounds; ++round) {
     monitor_.check();
     for (const Cut2& cut : violated) {
       const auto met = [&](const Cut2::Alternative& a) { return flows[a.axis].span(a.low, a.high) > 0; };
@@ -239,7 +233,7 @@ std::vector<Search::NodePtr> Search::branch(const Node& node, const std::vector<
   // Of the first few the one whose children have the highest bounds: the cheapest child decides.
   std::vector<NodePtr> best;
   double best_bound = -1;
-  const std::size_t count = std::min<std::size_t>(violated.size(), kCandidates);
+  const std::size_t count = std::min<std::size_t>(violated.size(), kQuantizeTuning.candidates);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<NodePtr> children = split(node, violated[i * violated.size() / count]);
     double least = std::numeric_limits<double>::infinity();

@@ -8,15 +8,12 @@
 #include <optional>
 
 #include "hex/locate.h"
+#include "hex/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Coordinates this far outside still count as inside.
-constexpr double kInside = 1e-9;
-/// Fraction of the image's extent within which a node is on a feature's image.
-constexpr double kOnFeature = 1e-7;
 
 /// Edge of the tet mesh's boundary.
 struct BoundaryEdge {
@@ -35,7 +32,7 @@ class Placement {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    on_feature_ = kOnFeature * (high - low).maxCoeff();
+    on_feature_ = kHexTuning.on_feature * (high - low).maxCoeff();
     chart_grids_.resize(map.charts.size());
     block_grids_.resize(complex.blocks.size());
   }
@@ -194,14 +191,14 @@ class Placement {
     // Among the tets that contain p a positive one, the one that contains it most deeply.
     int best = -1;
     bool best_positive = false;
-    double best_depth = -kInside;
+    double best_depth = -kHexTuning.inside;
     std::array<double, 4> best_coordinates{};
     const auto [begin, end] = grid->candidates(p);
     for (auto i = begin; i != end; ++i) {
       const auto corners = image(mesh_.tets[tets[*i]]);
       const auto c = tet_coordinates(corners, p);
       const double depth = *std::min_element(c.begin(), c.end());
-      if (!(depth >= -kInside)) continue;
+      if (!(depth >= -kHexTuning.inside)) continue;
       const bool positive = (corners[1] - corners[0]).cross(corners[2] - corners[0]).dot(corners[3] - corners[0]) > 0;
       if (best >= 0 && (positive < best_positive || (positive == best_positive && depth <= best_depth))) continue;
       best = tets[*i];
@@ -344,7 +341,7 @@ class Placement {
       const auto corners = image(mesh_.triangles[t]);
       const auto c = triangle_coordinates(corners, p, axis);
       const double depth = *std::min_element(c.begin(), c.end());
-      if (!(depth >= -kInside)) continue;
+      if (!(depth >= -kHexTuning.inside)) continue;
       const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0])[axis] * map_.charts[chart].sign;
       const std::array<int, 2> rank{near(owner_[t]), area > 0};
       if (rank < best_rank || (rank == best_rank && depth <= best_depth)) continue;

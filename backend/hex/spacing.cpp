@@ -5,12 +5,10 @@
 #include <numeric>
 
 #include "core/union_find.h"
+#include "hex/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Halvings of the interval that the largest cell is looked for in.
-constexpr int kHalvings = 60;
 
 /// Places 0 to 1 of the ends of cells.
 std::vector<double> places_of(const std::vector<double>& lengths) {
@@ -74,7 +72,7 @@ std::vector<double> graded(int count, double length, double first, double last, 
     return lengths;
   };
   double low = 0, high = length;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < kHexTuning.halvings; ++i) {
     const double middle = (low + high) / 2;
     const std::vector<double> lengths = at_most(middle);
     (std::accumulate(lengths.begin(), lengths.end(), 0.0) < length ? low : high) = middle;

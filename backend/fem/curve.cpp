@@ -12,16 +12,12 @@
 #include "core/parallel.h"
 #include "core/union_find.h"
 #include "fem/element.h"
+#include "fem/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// A cell's share is the least ratio, over the points of fem/element.h, of its Jacobian to that with straight edges. Below this one, as for
-/// the fit's scaled Jacobian, nodes are moved.
-constexpr double kWanted = 0.3;
-/// What moves do not bring above this share is straightened. Any positive one would do for a solver; this one is out of rounding's reach.
-constexpr double kAccepted = 0.02;
 
 std::uint64_t edge_key(int a, int b) { return static_cast<std::uint64_t>(std::min(a, b)) << 32 | static_cast<std::uint64_t>(std::max(a, b)); }
 
@@ -258,8 +254,6 @@ void Curving::improve(int e, double barrier) {
     double share;
     Vec3 slope;
   };
-  constexpr int kSteps = 4, kHalves = 12;
-  constexpr double kLongest = 0.25, kShortest = 1e-9;  // of the edge, a step
   if (supports_[e].fixed) return;
   std::vector<Row> rows;
   for (const auto& [h, k] : uses(e)) {
@@ -279,7 +273,7 @@ void Curving::improve(int e, double barrier) {
     }
     return sum;
   };
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < kFemTuning.steps; ++step) {
     Vec3 gradient = pull * (node(e) - home_[e]);
     Mat3 hessian = pull * Mat3::Identity();
     for (const Row& row : rows) {
@@ -290,11 +284,11 @@ void Curving::improve(int e, double barrier) {
     const auto basis = tangents(e);
     Vec3 move = -basis * (basis.transpose() * hessian * basis).ldlt().solve(basis.transpose() * gradient);
     const double far = move.norm();
-    if (!(far > kShortest * size)) return;
-    if (far > kLongest * size) move *= kLongest * size / far;
+    if (!(far > kFemTuning.shortest * size)) return;
+    if (far > kFemTuning.longest * size) move *= kFemTuning.longest * size / far;
     const double before = energy(Vec3::Zero());
     bool fell = false;
-    for (int half = 0; half < kHalves && !fell; ++half, move /= 2) {
+    for (int half = 0; half < kFemTuning.halves && !fell; ++half, move /= 2) {
       Support support;
       const Vec3 to = moved(e, move, support), made = to - node(e);
       if (!(energy(made) < before)) continue;
@@ -310,8 +304,6 @@ void Curving::improve(int e, double barrier) {
 /// A few rounds over the active nodes with one barrier a group of cells, taken back where the group's least share fell. A group that gains
 /// nothing gets its barrier nearer, which leaves the worst points more weight.
 void Curving::sweep(const std::vector<int>& active) {
-  constexpr int kSweeps = 3;
-  constexpr double kGain = 0.005;  // of the way up to 1, below which the barrier comes nearer
   UnionFind joined(mesh_.hexes.size());
   std::vector<int> cells;
   for (int e : active)
@@ -337,7 +329,7 @@ void Curving::sweep(const std::vector<int>& active) {
   std::vector<std::pair<Vec3, Support>> start;
   start.reserve(active.size());
   for (int e : active) start.emplace_back(node(e), supports_[e]);
-  for (int round = 0; round < kSweeps; ++round)
+  for (int round = 0; round < kFemTuning.sweeps; ++round)
     for (std::size_t i = 0; i < active.size(); ++i) {
       if (i % 256 == 0) monitor_.check();
       const Group& group = group_of(uses(active[i]).first->hex);
@@ -351,19 +343,17 @@ void Curving::sweep(const std::vector<int>& active) {
   for (int h : cells) {
     const Group& group = group_of(h);
     shares_[h] = share(h);
-    margins_[h] = group.after < group.before + kGain * (1 - group.before) ? group.margin / 2 : group.margin;
+    margins_[h] = group.after < group.before + kFemTuning.gain * (1 - group.before) ? group.margin / 2 : group.margin;
   }
 }
 
 /// Moves the mid-edge nodes of cells whose share is less than wanted, until it is not or no move helps.
 void Curving::raise() {
-  constexpr int kRounds = 60;
-  constexpr double kMargin = 0.2, kLeastMargin = 0.02;
-  margins_.assign(mesh_.hexes.size(), kMargin);
-  for (int round = 0; round < kRounds; ++round) {
+  margins_.assign(mesh_.hexes.size(), kFemTuning.margin);
+  for (int round = 0; round < kFemTuning.rounds; ++round) {
     std::vector<int> active;
     for (int h = 0; h < std::ssize(mesh_.hexes); ++h)
-      if (shares_[h] < kWanted && margins_[h] >= kLeastMargin)
+      if (shares_[h] < kFemTuning.wanted && margins_[h] >= kFemTuning.least_margin)
         for (int k = 8; k < 20; ++k) active.push_back(mesh_.hexes[h][k] - base_);
     if (active.empty()) return;
     std::sort(active.begin(), active.end());
@@ -377,7 +367,7 @@ void Curving::raise() {
 bool Curving::straighten() {
   std::vector<int> found;
   for (int h = 0; h < std::ssize(mesh_.hexes); ++h) {
-    if (shares_[h] > kAccepted) continue;
+    if (shares_[h] > kFemTuning.accepted) continue;
     int worst = -1;
     std::pair<bool, double> most{false, 0};
     for (int k = 8; k < 20; ++k) {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -17,6 +18,7 @@
 #include "pipeline/inspect.h"
 #include "pipeline/label_part.h"
 #include "pipeline/part_mesh.h"
+#include "pipeline/trial_tuning.h"
 
 namespace polycube {
 namespace {
@@ -313,6 +315,14 @@ int supervised(const Command& command, Monitor::Clock::time_point start) {
   return supervise(work, supervision);
 }
 
+/// Values of a trial come by the environment, which the engine's process and whatever runs this program hand on.
+void take_tuning() {
+  const char* text = std::getenv("POLYCUBE_TUNING");
+  if (!text || !*text) return;
+  set_tuning(text);
+  std::cerr << "polycube: warning: other values than those of this program: " << text << "\n";
+}
+
 int run(int argc, char** argv) {
   const auto start = Monitor::Clock::now();
   CLI::App app{"Hexahedral meshes of CAD solids by polycube maps", "polycube"};
@@ -322,7 +332,11 @@ int run(int argc, char** argv) {
   const LabelCommand label_command(app);
   const HexCommand hex_command(app);
   const JobCommand job_command(app);
-  const CLI::App* describe_command = app.add_subcommand("describe", "What this program offers, as JSON: options, names and colours of labels, order of nodes");
+  CLI::App* describe_command = app.add_subcommand("describe", "What this program offers, as JSON: options, names and colours of labels, order of nodes");
+  bool tuning = false;
+  describe_command->add_flag("--tuning", tuning,
+                             "Instead the thresholds, weights and numbers of rounds in force, for developers; for a trial with others "
+                             "set POLYCUBE_TUNING=pad.hopeless=1750,deform.outer=11");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -334,7 +348,7 @@ int run(int argc, char** argv) {
   if (label_command.command.parsed()) return supervised(label_command, start);
   if (hex_command.command.parsed()) return supervised(hex_command, start);
   if (job_command.command.parsed()) return serve_job(job_command.folder, job_kind(job_command.kind));
-  if (describe_command->parsed()) std::cout << describe_engine();
+  if (describe_command->parsed()) std::cout << (tuning ? describe_tuning() : describe_engine());
   return kDone;
 }
 
@@ -342,5 +356,8 @@ int run(int argc, char** argv) {
 }  // namespace polycube
 
 int main(int argc, char** argv) {
-  return polycube::guarded([&] { return polycube::run(argc, argv); });
+  return polycube::guarded([&] {
+    polycube::take_tuning();
+    return polycube::run(argc, argv);
+  });
 }

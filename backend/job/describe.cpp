@@ -1,10 +1,12 @@
 #include "job/describe.h"
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "core/charts.h"
 #include "core/options.h"
 #include "fem/fem.h"
+#include "pipeline/trial_tuning.h"
 
 namespace polycube {
 namespace {
@@ -53,6 +55,12 @@ std::string describe_engine() {
     json["label_colours"].push_back(label_colour(label));
   }
   json["smesh_hex20"] = kSmeshHex20;
+  return json.dump(2) + "\n";
+}
+
+std::string describe_tuning() {
+  Json json = Json::object();
+  for (const TuningValue& value : tuning_values()) json[value.name] = value.whole ? Json(static_cast<std::int64_t>(value.value)) : Json(value.value);
   return json.dump(2) + "\n";
 }
 

@@ -9,4 +9,7 @@ namespace polycube {
 /// (red, green, blue, 0 to 255) by label, "smesh_hex20" (fem/fem.h). The workbench's engine.json is this text.
 std::string describe_engine();
 
+/// JSON object, indented: every value in force of the stages' tuning.h by name, such as "pad.hopeless".
+std::string describe_tuning();
+
 }  // namespace polycube

@@ -8,24 +8,13 @@
 #include "hex/spacing.h"
 #include "pipeline/circles.h"
 #include "pipeline/edge_runs.h"
+#include "pipeline/tuning.h"
 #include "quantize/problem.h"
 
 namespace polycube {
 namespace {
 
 constexpr int kNoMost = std::numeric_limits<int>::max();
-// A twentieth of a cell too much is none more: the map stretches by as much.
-constexpr double kSlack = 0.05;
-// Of shares of elements that are no whole numbers: a tenth is none.
-constexpr double kShareSlack = 0.1;
-// Of the longest to the shortest edge of a cell: the most that solvers take without a warning.
-constexpr double kWidestAspect = 10;
-// What asks the cells beside it for more, in sizes (27 parts: without these two limits some had a hundred times their cells, since a sheet goes through the
-// whole part; with a thirtieth and a tenth the number is up to 1.6 times as large): cells along which others may not be longer than 10 times that width, cells
-// from which others grow.
-constexpr double kThinnest = 1.0 / 20, kSmallest = 1.0 / 5;
-// A layer never gets more than so many times its cells at once for what stands beside it.
-constexpr int kMostRounds = 100;
 
 /// A place along an axis: (value, chart) or (value, -1 - node) where the grid is free.
 using Place = std::pair<double, int>;
@@ -67,7 +56,7 @@ std::vector<double> shares(const RoundEdge& round, const std::vector<EdgeRun>& r
   for (const double turn : turns) {
     const double share = round.elements * turn / whole;
     passed += share;
-    const double now = held ? std::round(passed) : round.circle > 0 ? passed : before + std::ceil(share - kShareSlack);
+    const double now = held ? std::round(passed) : round.circle > 0 ? passed : before + std::ceil(share - kPipelineTuning.share_slack);
     result.push_back(now - before);
     before = now;
   }
@@ -101,7 +90,7 @@ void bound_circles(const CadModel& model, const TetMesh& tets, const PolycuboidM
       for (auto it = passed.begin(); it != passed.end(); ++it) {
         const auto& [at, need] = *it;
         if (at.second >= 0 && at != start) {
-          const int least = static_cast<int>(std::ceil(need.elements - kShareSlack));
+          const int least = static_cast<int>(std::ceil(need.elements - kPipelineTuning.share_slack));
           if (least > 1) constraints.push_back({start.second, at.second, least, kNoMost, need.name, true});
           continue;
         }
@@ -136,7 +125,7 @@ void bound_lengths(const PolycuboidMap& map, const BlockComplex& blocks, double 
   }
   for (const auto& [low, high] : pairs) {
     const double length = map.charts[high].value - map.charts[low].value;
-    const int least = static_cast<int>(std::ceil(length / longest - kSlack));
+    const int least = static_cast<int>(std::ceil(length / longest - kPipelineTuning.slack));
     if (least > 1) constraints.push_back({low, high, least, kNoMost, "no edge longer than the largest size", true});
   }
 }
@@ -165,9 +154,9 @@ std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const
     double least = std::numeric_limits<double>::infinity();
     for (int d = 0; d < 3; ++d) least = std::min(least, length(layers.of[b][d]) / cells(layers.of[b][d]));
     if (!std::isfinite(least)) continue;  // squashed
-    least = std::max(least, kThinnest * size);
+    least = std::max(least, kPipelineTuning.thinnest * size);
     for (int d = 0; d < 3; ++d) {
-      const int l = layers.of[b][d], needed = static_cast<int>(std::ceil(length(l) / (kWidestAspect * least) - kSlack));
+      const int l = layers.of[b][d], needed = static_cast<int>(std::ceil(length(l) / (kPipelineTuning.widest_aspect * least) - kPipelineTuning.slack));
       int& most = wide[blocks.blocks[b].charts[d]];
       if (cells(l) > 0 && needed > cells(l)) most = std::max(most, needed);
     }
@@ -183,12 +172,13 @@ std::vector<DistanceConstraint> neighbour_bounds(const PolycuboidMap& map, const
     std::array<double, 2> first;
     for (const int s : {0, 1}) {
       first[s] = std::numeric_limits<double>::infinity();
-      for (const int other : beside[s]) first[s] = std::min(first[s], growth * std::max(length(other) / cells(other), (local ? kThinnest : kSmallest) * size));
+      for (const int other : beside[s])
+        first[s] = std::min(first[s], growth * std::max(length(other) / cells(other), (local ? kPipelineTuning.thinnest : kPipelineTuning.smallest) * size));
     }
     // Cells that grow from both ends until the layer is full.
     double low = first[0], high = first[1], covered = 0;
     int needed = 0;
-    while (covered < length(l) * (1 - kSlack) && needed < cells(l) * kMostRounds && std::isfinite(std::min(low, high))) {
+    while (covered < length(l) * (1 - kPipelineTuning.slack) && needed < cells(l) * kPipelineTuning.most_rounds && std::isfinite(std::min(low, high))) {
       double& next = low < high ? low : high;
       covered += next;
       next *= growth;

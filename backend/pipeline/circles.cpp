@@ -9,21 +9,10 @@
 
 #include "core/error.h"
 #include "core/union_find.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
-
-// A tenth of an element too much is none more: arcs of 90 degrees get no fourth one for rounding, nor for what Boolean operations leave of them.
-constexpr double kSlack = 0.1;
-// Small circles: their diameter in diagonals, and elements enough for them.
-constexpr double kSmallCircle = 1.0 / 100;
-constexpr int kPerSmallCircle = 8;
-// The fewest elements that go round a bore in a grid: one for each side.
-constexpr int kFewestRound = 4;
-// No edge needs more turns than this: more of them are noise of a spline.
-constexpr double kMostTurns = 4;
-// A circle that two or more edges make closes within this, radians; their centres are as near, in diagonals.
-constexpr double kClosed = 0.01, kSameCentre = 1e-5;
 
 struct Circle {
   double turn = 0;
@@ -31,8 +20,8 @@ struct Circle {
 };
 
 int elements_for(double turn, int per_circle) {
-  const double turns = std::min(turn / (2 * std::numbers::pi), kMostTurns);
-  return std::max(1, static_cast<int>(std::ceil(per_circle * turns - kSlack)));
+  const double turns = std::min(turn / (2 * std::numbers::pi), kPipelineTuning.most_turns);
+  return std::max(1, static_cast<int>(std::ceil(per_circle * turns - kPipelineTuning.circle_slack)));
 }
 
 /// The cylinder or cone that the edge goes round, or 0.
@@ -55,12 +44,10 @@ std::string counted(int elements) { return std::to_string(elements) + (elements 
 }  // namespace
 
 double edge_turn(const CadModel& model, int edge, double from, double to) {
-  // As many steps as keep one below 90 degrees on an edge that goes round four times.
-  constexpr int kSteps = 16;
   double turn = 0;
   Vec3 before = model.edge_tangent(edge, from);
-  for (int i = 1; i <= kSteps; ++i) {
-    const Vec3 now = model.edge_tangent(edge, from + (to - from) * i / kSteps);
+  for (int i = 1; i <= kPipelineTuning.turn_steps; ++i) {
+    const Vec3 now = model.edge_tangent(edge, from + (to - from) * i / kPipelineTuning.turn_steps);
     turn += std::atan2(before.cross(now).norm(), before.dot(now));
     before = now;
   }
@@ -76,8 +63,8 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     if (edge.seam || edge.degenerate || edge.tiny) continue;
     const auto [from, to] = model.edge_range(e);
     const double turn = edge_turn(model, e, from, to);
-    const bool small = turn > 0 && 2 * edge.length / turn < kSmallCircle * model.diagonal();
-    const int round = small ? std::min(per_circle, kPerSmallCircle) : per_circle;
+    const bool small = turn > 0 && 2 * edge.length / turn < kPipelineTuning.small_circle * model.diagonal();
+    const int round = small ? std::min(per_circle, kPipelineTuning.per_small_circle) : per_circle;
     all.push_back({e, turn, elements_for(turn, round), 0, round, 0, {}});
     const Vec3 bend = model.edge_bend(e, (from + to) / 2);
     centres.push_back(model.edge_point(e, (from + to) / 2) + bend / std::max(bend.squaredNorm(), std::numeric_limits<double>::min()));
@@ -89,7 +76,7 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     if (barrel_beside(model, model.edge(all[i].edge)) == 0) continue;
     for (const int v : model.edge(all[i].edge).vertices) {
       for (const int other : at_vertex[v]) {
-        if ((centres[i] - centres[other]).norm() < kSameCentre * model.diagonal()) same.unite(i, other);
+        if ((centres[i] - centres[other]).norm() < kPipelineTuning.same_centre * model.diagonal()) same.unite(i, other);
       }
       at_vertex[v].push_back(i);
     }
@@ -106,7 +93,7 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
     const CadEdge& edge = model.edge(r.edge);
     const Circle& circle = circles.at(same.find(i));
     const int barrel = barrel_beside(model, edge);
-    if (barrel > 0 && std::abs(circle.turn - 2 * std::numbers::pi) < kClosed) {
+    if (barrel > 0 && std::abs(circle.turn - 2 * std::numbers::pi) < kPipelineTuning.closed) {
       r.circle = circle.first;
       const bool bore = is_bore(model, barrel, model.edge_point(r.edge, model.edge_range(r.edge)[0]));
       if (bore) r.bore = barrel;
@@ -122,7 +109,7 @@ std::vector<RoundEdge> round_edges(const CadModel& model, int per_circle) {
 EdgeLevels levels_round_bores(const std::vector<RoundEdge>& edges) {
   EdgeLevels levels;
   for (const RoundEdge& r : edges) {
-    for (int fewest = 3 * kFewestRound; r.bore > 0 && fewest <= r.round; fewest *= 3) ++levels[r.edge];
+    for (int fewest = 3 * kPipelineTuning.fewest_round; r.bore > 0 && fewest <= r.round; fewest *= 3) ++levels[r.edge];
   }
   return levels;
 }

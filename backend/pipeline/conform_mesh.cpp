@@ -28,25 +28,13 @@
 #include "pipeline/solids.h"
 #include "pipeline/stage_clock.h"
 #include "pipeline/structures.h"
+#include "pipeline/tuning.h"
 #include "pipeline/vertex_room.h"
 #include "tet/classify.h"
 #include "tet/tet.h"
 
 namespace polycube {
 namespace {
-
-// Labellings that are tried until one has a complete mesh with good cells, and paddings of each that are fitted (as a quick search of one solid tries).
-constexpr int kLabellings = 4;
-constexpr int kFits = 3;
-// Ways to lay layers through several solids that are fitted (on 8 parts the first was the best each time).
-constexpr std::size_t kAcross = 1;
-// eta of section 6.2 for the coarsest mesh.
-constexpr double kCoarsest = 1e-6;
-// A labelling whose worst cell is as good as this ends the search (good_cells of one solid asks for no more).
-constexpr double kGood = 0.2;
-// As for one solid (search/evaluator.cpp): how far off a number of cells may be with padding, and how often it is tried to come nearer.
-constexpr double kPaddedMiss = 0.1;
-constexpr int kRecounts = 2;
 
 double size_of(const MeshOptions& options, const Assembly& assembly) {
   return options.hexes > 0 ? std::cbrt(assembly.volume() / options.hexes) : effective_size(options, assembly.diagonal());
@@ -108,7 +96,7 @@ class Conformer {
     std::optional<Draft> best;
     std::optional<StageFailed> failure;
     int tried = 0;
-    for (int i = 0; i < kLabellings; ++i) {
+    for (int i = 0; i < kPipelineTuning.conform_labellings; ++i) {
       try {
         ++tried;
         const ConformalStructure* structure = structures_.structure(i, clock_, monitor_);
@@ -116,7 +104,7 @@ class Conformer {
         Draft draft = drafted(based(*structure));
         const auto rank = [](const Draft& d) { return std::pair(-d.lost(), d.fitted.min_scaled_jacobian); };
         if (!best || rank(draft) > rank(*best)) best = std::move(draft);
-        if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kGood) break;
+        if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kPipelineTuning.conform_good) break;
       } catch (const StageFailed& e) {
         monitor_.log("conform: " + e.stage() + ": " + e.what());
         if (!failure || e.stage() == "interfaces") failure = e;
@@ -133,7 +121,7 @@ class Conformer {
   /// Hexahedra of the mesh, without fitting them: those of the first labelling that comes to a grid.
   int count() {
     std::optional<StageFailed> failure;
-    for (int i = 0; i < kLabellings; ++i) {
+    for (int i = 0; i < kPipelineTuning.conform_labellings; ++i) {
       try {
         if (const ConformalStructure* structure = structures_.structure(i, clock_, monitor_)) return count(based(*structure));
       } catch (const StageFailed& e) {
@@ -147,7 +135,7 @@ class Conformer {
   int count(const Base& base) {
     int cells = 0;
     double share = 1;
-    for (int round = 0; round <= kRecounts; ++round) {
+    for (int round = 0; round <= kPipelineTuning.conform_recounts; ++round) {
       Laid made = laid(base, options_.divisions, share);
       const std::size_t first =
           made.choices.size() < 2 ? 0 : clock_.stage("fit", [&] { return most_promising(model_.whole, candidates_of(made.choices), fit_options(), monitor_); });
@@ -156,7 +144,7 @@ class Conformer {
       const auto miss = [&](int n) { return std::abs(n / wanted_cells() - 1); };
       if (round > 0 && miss(found) >= miss(cells)) break;
       cells = found;
-      if (options_.hexes <= 0 || miss(cells) <= kPaddedMiss) break;
+      if (options_.hexes <= 0 || miss(cells) <= kPipelineTuning.conform_padded_miss) break;
       share = made.draft.grid_hexes / cells;
     }
     return cells;
@@ -228,7 +216,7 @@ class Conformer {
   void recount(const Base& base, Draft& draft) {
     const auto cells = [](const Draft& d) { return static_cast<double>(d.joined.whole.mesh.hexes.size()); };
     const auto miss = [&](const Draft& d) { return std::abs(cells(d) / wanted_cells() - 1); };
-    for (int round = 0; round < kRecounts && miss(draft) > kPaddedMiss; ++round) {
+    for (int round = 0; round < kPipelineTuning.conform_recounts && miss(draft) > kPipelineTuning.conform_padded_miss; ++round) {
       std::optional<Draft> next = again(base, options_.divisions, draft.grid_hexes / cells(draft), "another number of cells");
       if (!next || miss(*next) >= miss(draft)) return;
       draft = std::move(*next);
@@ -283,7 +271,7 @@ class Conformer {
     auto chains = edge_chains(model_.outer, base.s.tets);
     const MeshOptions demands = by_entity(divisions);
     IntegerOptions wanted;
-    wanted.scale = options_.coarsest ? kCoarsest : 1 / size_;
+    wanted.scale = options_.coarsest ? kPipelineTuning.conform_coarsest : 1 / size_;
     if (options_.hexes > 0) wanted.wanted_cells = share * wanted_cells();
     wanted.growth = options_.growth;
     wanted.coarsest = options_.coarsest;
@@ -523,7 +511,7 @@ class Conformer {
     clock_.stage("pad", [&] {
       for (const std::size_t i : std::set<std::size_t>{0, most - 1}) {
         std::vector<PaddedGrids> across = pad_across(model_, result[i], monitor_);
-        if (across.size() > kAcross) across.resize(kAcross);
+        if (across.size() > kPipelineTuning.conform_across) across.resize(kPipelineTuning.conform_across);
         for (PaddedGrids& one : across) result.push_back(std::move(one));
         if (!across.empty()) break;
       }
@@ -541,8 +529,8 @@ class Conformer {
 
   void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
     const std::vector<FitCandidate> candidates = candidates_of(choices);
-    const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kGood; };
-    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options(), kFits, good, monitor_); });
+    const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kPipelineTuning.conform_good; };
+    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options(), kPipelineTuning.conform_fits, good, monitor_); });
     draft.fitted = best.report;
     monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +
                  std::to_string(draft.fitted.inverted) + " inverted, choice " + std::to_string(best.index + 1) + " of " + std::to_string(choices.size()));

@@ -7,17 +7,15 @@
 #include "core/hexahedron.h"
 #include "core/quality.h"
 #include "fem/fem.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
 
-// Of the diagonal: below this a mesh edge is none.
-constexpr double kShortestEdge = 1e-8;
-
 // Corners of the first edge of the hex that has no length; equal where there is none.
 std::array<int, 2> edge_without_length(const CadModel& model, const HexMesh& mesh, const Hex& hex) {
   for (const auto& [c, d] : kHexEdges) {
-    if ((mesh.points[hex[c]] - mesh.points[hex[d]]).norm() <= kShortestEdge * model.diagonal()) return {c, d};
+    if ((mesh.points[hex[c]] - mesh.points[hex[d]]).norm() <= kPipelineTuning.shortest_edge * model.diagonal()) return {c, d};
   }
   return {0, 0};
 }

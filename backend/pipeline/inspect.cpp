@@ -7,15 +7,12 @@
 
 #include "core/charts.h"
 #include "core/error.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// Cosine of the bend of a zigzag, 35 degrees; a boundary along generators, CAD edges or 45 degree lines bends less.
-constexpr double kZigzag = 0.82;
-constexpr int kStrayTriangles = 4;
 
 double mean_edge(const TetMesh& mesh) {
   double sum = 0;
@@ -44,7 +41,7 @@ void add_zigzags(const TetMesh& mesh, const std::vector<int>& chain, std::vector
   for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
     if (mesh.point_cad[chain[i]].dim != 2) continue;
     const Vec3 in = mesh.points[chain[i]] - mesh.points[chain[i - 1]], out = mesh.points[chain[i + 1]] - mesh.points[chain[i]];
-    if (in.dot(out) < kZigzag * in.norm() * out.norm()) found.push_back(chain[i]);
+    if (in.dot(out) < kPipelineTuning.zigzag * in.norm() * out.norm()) found.push_back(chain[i]);
   }
 }
 
@@ -109,7 +106,7 @@ Inspection inspect(const LabelledPart& part) {
       result.chart[t] = c;
     }
     label.push_back(2 * charts[c].axis + (charts[c].sign < 0));
-    if (std::ssize(charts[c].triangles) <= kStrayTriangles || area < 4 * edge * edge) result.stray_charts.push_back(c);
+    if (std::ssize(charts[c].triangles) <= kPipelineTuning.stray_triangles || area < 4 * edge * edge) result.stray_charts.push_back(c);
   }
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) points.push_back(part.labelling.frame * p);

@@ -3,16 +3,10 @@
 #include <cmath>
 
 #include "pipeline/bounds.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Times that the integers are found anew for what stands beside each other: what is left after them is little.
-constexpr int kNeighbourRounds = 3;
-// Number of cells asked for: how far off it may be (logarithm); the number goes with the 2.5th power of the scale or less, where bounds hold some of them; a
-// scale that many times off is not tried.
-constexpr double kCountMiss = 0.04, kCountPower = 0.4, kCountReach = 8;
-constexpr int kCountRounds = 8;
 
 // `bounds` get those of neighbouring cells added.
 Quantization at_scale(const BlockComplex& blocks, const PolycuboidMap& map, const IntegerOptions& options, double scale,
@@ -22,7 +16,7 @@ Quantization at_scale(const BlockComplex& blocks, const PolycuboidMap& map, cons
   add(options.room);
   add(bounds);
   Quantization result = quantize(blocks, map, asked, monitor);
-  for (int round = 0; round < kNeighbourRounds && options.growing && !options.coarsest; ++round) {
+  for (int round = 0; round < kPipelineTuning.neighbour_rounds && options.growing && !options.coarsest; ++round) {
     const std::vector<DistanceConstraint> more = neighbour_bounds(map, blocks, result.value, options.growth, 1 / scale, options.local);
     if (more.empty()) break;
     add(more);
@@ -54,11 +48,11 @@ Integers find_integers(const BlockComplex& blocks, const PolycuboidMap& map, con
     double tried = scale, low = 0, high = 0;
     double best = miss(result);
     Quantization next = result;
-    for (int round = 0; round < kCountRounds && best > kCountMiss; ++round) {
+    for (int round = 0; round < kPipelineTuning.count_rounds && best > kPipelineTuning.count_miss; ++round) {
       const double cells = cell_count(blocks, next.value);
       (cells < options.wanted_cells ? low : high) = tried;
-      tried = low > 0 && high > 0 ? std::sqrt(low * high) : tried * std::pow(options.wanted_cells / cells, kCountPower);
-      if (tried < scale / kCountReach || tried > scale * kCountReach) break;
+      tried = low > 0 && high > 0 ? std::sqrt(low * high) : tried * std::pow(options.wanted_cells / cells, kPipelineTuning.count_power);
+      if (tried < scale / kPipelineTuning.count_reach || tried > scale * kPipelineTuning.count_reach) break;
       std::vector<DistanceConstraint> asked = options.bounds;
       next = at_scale(blocks, map, options, tried, asked, monitor);
       if (miss(next) >= best) continue;

@@ -8,14 +8,11 @@
 #include "core/hexahedron.h"
 #include "core/options.h"
 #include "pipeline/shortfalls.h"
+#include "pipeline/tuning.h"
 #include "refine/refine.h"
 
 namespace polycube {
 namespace {
-
-// Cells that are divided only because a region has to be convex are told of where they are more than so much of those asked for and of all (guess: what
-// surprises).
-constexpr double kMuchOfAsked = 1.0 / 3, kMuchOfAll = 0.1;
 
 int most_levels(const RefinePlan& plan) {
   int most = 0;
@@ -159,7 +156,7 @@ LocallyRefined refine_locally(const CadModel& model, const PaddedMesh& padded, c
     const RefineRegion region = region_of({result.padded.mesh, result.padded.association, result.parent}, plan, level);
     RefinedMesh refined = refine_cells(result.padded.mesh, result.padded.association, region, monitor);
     const auto asked = static_cast<double>(std::count(region.cells.begin(), region.cells.end(), 1));
-    const bool spreads = refined.grown > kMuchOfAsked * asked && refined.grown > kMuchOfAll * static_cast<double>(before);
+    const bool spreads = refined.grown > kPipelineTuning.much_of_asked * asked && refined.grown > kPipelineTuning.much_of_all * static_cast<double>(before);
     if (spreads && result.warnings.empty())
       result.warnings.push_back("local refinement: " + std::to_string(refined.grown) + " cells are divided besides the " + std::to_string(std::lround(asked)) +
                                 " asked for, since only convex regions have templates round them");

@@ -11,16 +11,10 @@
 #include "pipeline/session.h"
 #include "pipeline/shortfalls.h"
 #include "pipeline/solids.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Times the seconds that the gate took with the best mesh: what is kept of the time limit to hand it out. Elements of second order and the file took up to 16
-// times as long on the example parts.
-constexpr double kFinishing = 20;
-
-// Share of the time limit after which a search without a mesh looks for any (guess): the last ways take some fits too.
-constexpr double kHurry = 0.5;
 
 MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, Monitor& searching, const Monitor& monitor) {
   Evaluator evaluator(pose, options, structures, clock, searching);
@@ -28,7 +22,7 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
   const auto evaluate = [&](const Plan& plan, const Made* from, int fits) {
     Outcome outcome = evaluator.evaluate(plan, from, fits);
     if (outcome.score && monitor.deadline() != Monitor::Clock::time_point::max()) {
-      const std::chrono::duration<double> finishing(kFinishing * evaluator.gate_seconds());
+      const std::chrono::duration<double> finishing(kPipelineTuning.finishing * evaluator.gate_seconds());
       searching.set_deadline(monitor.deadline() - std::chrono::duration_cast<Monitor::Clock::duration>(finishing));
     }
     return outcome;
@@ -38,7 +32,7 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
   const auto hurry = [&] {
     const auto deadline = searching.deadline();
     return deadline != Monitor::Clock::time_point::max() &&
-           std::chrono::duration<double>(Monitor::Clock::now() - begun) > kHurry * std::chrono::duration<double>(deadline - begun);
+           std::chrono::duration<double>(Monitor::Clock::now() - begun) > kPipelineTuning.hurry * std::chrono::duration<double>(deadline - begun);
   };
   const SearchResult found = search(schedule, budget, evaluate, searching, hurry);
   MeshResult result = evaluator.result(found.best);

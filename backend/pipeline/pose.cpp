@@ -7,21 +7,10 @@
 
 #include "core/error.h"
 #include "label/frame.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
-
-// mm: edge of the cube that has the posed part's volume.
-constexpr double kPosedSize = 100;
-// mm in the pose: a hundredth of OCCT's confusion, a thousand times the noise of coordinates with 15 digits.
-constexpr double kGrid = 1e-9;
-constexpr int kSamples = 7;
-// Frames of the labels that are tried.
-constexpr std::size_t kFrames = 3;
-// Radians.
-constexpr double kSameFrame = 0.1;
-// Relative: shapes are as symmetric as this.
-constexpr double kTie = 1e-6;
 
 double nine_digits(double value) {
   const double digit = std::pow(10, std::floor(std::log10(value)) - 8);
@@ -32,7 +21,7 @@ std::vector<Vec3> points_of(const CadModel& model) {
   std::vector<Vec3> points;
   for (const int v : model.vertices()) points.push_back(model.vertex(v));
   for (const int e : model.edges()) {
-    for (const Vec3& p : model.edge_samples(e, kSamples)) points.push_back(p);
+    for (const Vec3& p : model.edge_samples(e, kPipelineTuning.pose_samples)) points.push_back(p);
   }
   return points;
 }
@@ -52,7 +41,7 @@ Mat3 directed(const Mat3& frame, const std::vector<Vec3>& points, const Vec3& ce
     }
     extent[k] = high - low;
   }
-  const double tie = kTie * *std::max_element(extent.begin(), extent.end());
+  const double tie = kPipelineTuning.tie * *std::max_element(extent.begin(), extent.end());
   const auto before = [&](int a, int b) {
     return std::abs(extent[a] - extent[b]) > tie ? extent[a] > extent[b] : std::abs(moment[a]) > std::abs(moment[b]) + tie;
   };
@@ -100,8 +89,8 @@ std::vector<Mat3> Pose::frames(const MeshOptions& options) const {
   std::vector<Mat3> result{frame};
   const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
   if (frame_given || by_axis || !options.labels.empty()) return result;
-  for (const Mat3& f : find_frames(model, kFrames)) {
-    if (frame_turn(f, frame) > kSameFrame) result.push_back(f);
+  for (const Mat3& f : find_frames(model, kPipelineTuning.frames)) {
+    if (frame_turn(f, frame) > kPipelineTuning.same_frame) result.push_back(f);
   }
   return result;
 }
@@ -136,9 +125,9 @@ Pose canonical_pose(const CadModel& model, const FrameAxes& axes) {
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : points) centre += p / static_cast<double>(points.size());
   const Mat3 rotation = directed(pose.user_frame, points, centre);
-  const double scale = nine_digits(kPosedSize / std::cbrt(model.volume()));
+  const double scale = nine_digits(kPipelineTuning.posed_size / std::cbrt(model.volume()));
   const Vec3 translation = -scale * (rotation * centre);
-  for (const double grid : {kGrid, kGrid / 100, 0.0}) {
+  for (const double grid : {kPipelineTuning.grid, kPipelineTuning.grid / 100, 0.0}) {
     try {
       pose.model = model.transformed(rotation, translation, scale, grid);
     } catch (const InvalidInput&) {

@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
+#include "pipeline/tuning.h"
+
 namespace polycube {
-namespace {
-
-constexpr int kRounds = 4;
-// Folds that features may add in all.
-constexpr int kFewFolds = 5;
-
-}  // namespace
 
 RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling& labelling, Features& features, const DeformOptions& options,
                     const Monitor& monitor, const std::vector<Chart>& fixed) {
@@ -35,7 +30,7 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     without([](int) { return true; });
     return bare;
   };
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kPipelineTuning.realise_rounds; ++round) {
     std::vector<Chart> charts;
     for (const FeatureChart& f : features.charts) charts.push_back(f.chart);
     charts.insert(charts.end(), fixed.begin(), fixed.end());
@@ -51,14 +46,14 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     }
     int worst = 0;
     for (const FeatureChart& f : features.charts) worst = std::max(worst, blame[f.edge]);
-    if (worst == 0 || round + 1 == kRounds) break;
+    if (worst == 0 || round + 1 == kPipelineTuning.realise_rounds) break;
     // Those that fold much go first: others may only stand beside them.
     without([&](int e) { return 3 * blame[e] >= worst; });
     if (features.charts.empty()) return bare;
   }
   // Many folds more that cannot be blamed on single features: none of them is worth it. The blocks bear a few.
   const int folds = bare.report.flipped;
-  return result.report.flipped <= folds + std::max(kFewFolds, folds / 2) ? result : give_up();
+  return result.report.flipped <= folds + std::max(kPipelineTuning.few_folds, folds / 2) ? result : give_up();
 }
 
 }  // namespace polycube

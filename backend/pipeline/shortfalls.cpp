@@ -7,13 +7,10 @@
 #include "core/error.h"
 #include "pad/topology.h"
 #include "pipeline/circles.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Cosine of the angle between the outward normals at the two sides of a wall: tapered ones up to 60 degrees count, the corner of a layer that padding
-// put under two faces does not.
-constexpr double kOpposite = -0.5;
 
 Vec3 unit_normal(const std::vector<Vec3>& points, const Quad& q) { return (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]).normalized(); }
 
@@ -46,7 +43,7 @@ Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Ass
       }
       const int end = -1 - side;
       if (side >= 0 || cells >= min_layers || end >= static_cast<int>(association.quads.size())) continue;
-      if (unit_normal(mesh.points, association.quads[q]).dot(unit_normal(mesh.points, association.quads[end])) > kOpposite) continue;
+      if (unit_normal(mesh.points, association.quads[q]).dot(unit_normal(mesh.points, association.quads[end])) > kPipelineTuning.opposite) continue;
       const int a = association.quad_patch[q], b = association.quad_patch[end];
       const auto [at, fresh] = least.try_emplace({std::min(a, b), std::max(a, b)}, cells);
       if (!fresh) at->second = std::min(at->second, cells);

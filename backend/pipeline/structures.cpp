@@ -7,24 +7,20 @@
 
 #include "core/parallel.h"
 #include "pipeline/realise.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
 
-// Labellings whose maps are compared.
-constexpr std::size_t kMapped = 4;
-// Flipped tets that the blocks bear.
-constexpr int kFewFlips = 50;
-
 // A few flips more or less say nothing, four times as many do.
-int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kFewFlips) / 2); }
+int magnitude(int flipped) { return static_cast<int>(std::log2(1 + static_cast<double>(flipped) / kPipelineTuning.few_flips) / 2); }
 
 void repeat(Structure& s) {
   s.repeats = true;
   s.failure = StageFailed("label", "the same as one before");
 }
 
-bool in_doubt(const Structure& s) { return s.failure || s.flipped > kFewFlips; }
+bool in_doubt(const Structure& s) { return s.failure || s.flipped > kPipelineTuning.few_flips; }
 
 }  // namespace
 
@@ -124,7 +120,7 @@ void Structures::sort_by_map(std::vector<LabelVariant>& order) {
     const Labelled& l = clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
     return std::tuple(l.faults, l.lost_features);
   };
-  const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kMapped));
+  const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kPipelineTuning.mapped));
   const auto end = std::find_if(order.begin(), last, [&, first = without_map(order.front())](const LabelVariant& v) { return without_map(v) > first; });
   const auto key = [&](const LabelVariant& v) {
     const Structure& s = built({.labels = v});

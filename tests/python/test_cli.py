@@ -64,6 +64,23 @@ class Cli(FolderTest):
         self.refuses(part, output="a.stl")
         self.refuses(part, output="none/a.inp")
 
+    def test_tuning_of_a_trial(self):
+        """It reaches the process that meshes; what is no value is told in one line."""
+        part = self.save(box())
+        arguments = [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--order", "1"]
+
+        def run(tuning):
+            return subprocess.run(arguments, capture_output=True, text=True, env={**os.environ, "POLYCUBE_TUNING": tuning})
+        cells = [int(re.search(r"(\d+) hexahedra", run(tuning).stdout).group(1)) for tuning in ("", "core.layers_of_first_order=5,core.sizes_per_diagonal=15")]
+        self.assertNotEqual(*cells)
+        self.assertRegex(run("label.snap=0.25").stderr, r"\Apolycube: warning: .*label.snap=0.25\n\Z")
+        for tuning in ("label.snip=0.2", "label.snap", "label.snap=much", "label.samples=2.5", "label.samples=-1", "snap=1"):
+            with self.subTest(tuning):
+                done = run(tuning)
+                self.assertEqual((done.returncode, done.stderr.count("\n"), done.stdout), (1, 1, ""))
+        listed = subprocess.run([PROGRAM, "describe", "--tuning"], capture_output=True, text=True, check=True)
+        self.assertEqual(json.loads(listed.stdout)["label.compactness.1"], 0.3)
+
     def test_hex_writes_medit_and_vtu_only(self):
         done = subprocess.run([PROGRAM, "hex", "--tets", "a", "--labels", "b", "--map", "c", "-o", self.path("a.inp")], capture_output=True, text=True)
         self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1))

@@ -8,15 +8,12 @@
 #include <set>
 
 #include "core/charts.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Generators nearer to each other are one.
-constexpr double kNear = kPi / 36;
-// Of the axis of a barrel with a direction across it.
-constexpr double kAcross = 0.1;
 
 double turn(double from, double to) { return std::remainder(to - from, 2 * kPi); }
 
@@ -41,7 +38,7 @@ Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
       Vec3 n = frame * (std::cos(at) * barrel.across[0] + std::sin(at) * barrel.across[1]);
       n = n.cwiseAbs();
       std::sort(n.data(), n.data() + 3);
-      if (std::atan2(n[2], n[1]) < kPi / 4 + kNear) continue;
+      if (std::atan2(n[2], n[1]) < kPi / 4 + kLabelTuning.near_generators) continue;
       cut_at(barrel, at);
     }
     for (const Strip& strip : room ? room->strips : std::vector<Strip>()) {
@@ -57,7 +54,7 @@ Barrels::Barrels(const CadModel& model, const TetMesh& mesh, const Mat3& frame, 
 }
 
 void Barrels::cut_at(Barrel& barrel, double angle) {
-  const bool new_cut = std::none_of(barrel.cuts.begin(), barrel.cuts.end(), [&](double c) { return std::abs(turn(c, angle)) < kNear; });
+  const bool new_cut = std::none_of(barrel.cuts.begin(), barrel.cuts.end(), [&](double c) { return std::abs(turn(c, angle)) < kLabelTuning.near_generators; });
   if (new_cut) barrel.cuts.push_back(angle);
 }
 
@@ -103,7 +100,7 @@ std::vector<BorderFunction> Barrels::borders(const RegionGraph& graph, int a, in
     direction[label_axis(l)] += label_sign(l);
     direction[label_axis(m)] -= label_sign(m);
   }
-  if (barrel.generators.empty() || std::abs(direction.dot(frame_ * model_.face(face).axis)) > kAcross) return {};
+  if (barrel.generators.empty() || std::abs(direction.dot(frame_ * model_.face(face).axis)) > kLabelTuning.across) return {};
   const double line = std::atan2(-direction.dot(frame_ * barrel.across[0]), direction.dot(frame_ * barrel.across[1]));
   std::map<double, std::vector<int>> chosen;  // generator -> where its arcs end
   for (const Arc& arc : graph.arcs) {
@@ -117,7 +114,7 @@ std::vector<BorderFunction> Barrels::borders(const RegionGraph& graph, int a, in
       const double nearest = *std::min_element(barrel.generators.begin(), barrel.generators.end(), by_distance_to(at));
       if (std::abs(turn(nearest, at)) < std::abs(turn(half_way, at))) {
         cut = nearest;
-      } else if (std::abs(turn(beside, half_way)) < kNear) {
+      } else if (std::abs(turn(beside, half_way)) < kLabelTuning.near_generators) {
         cut = beside;
       } else {
         return {};

@@ -8,15 +8,10 @@
 #include <string>
 #include <tuple>
 
+#include "label/tuning.h"
+
 namespace polycube {
 namespace {
-
-// A quarter of a cylinder keeps one label.
-constexpr double kFilletsWhole = 0.96;
-constexpr double kStrict = 1000;
-// What a CAD edge without feature charts weighs against faults; a turning point weighs 3.
-constexpr double kLostFeature = 3;
-constexpr std::array kCompactness{3.0, 0.3};
 
 // What the shape gives a choice of.
 struct Choices {
@@ -42,7 +37,8 @@ Choices choices_of(const CadModel& model, const TetMesh& mesh, const std::vector
   }
   for (const int f : model.faces()) {
     const CadFace& face = model.face(f);
-    result.bends = result.bends || face.kind == SurfaceKind::kTorus || (least[f] < std::cos(LabelOptions{}.widest_bend) && least[f] >= std::cos(kFilletsWhole));
+    result.bends = result.bends || face.kind == SurfaceKind::kTorus ||
+                   (least[f] < std::cos(LabelOptions{}.widest_bend) && least[f] >= std::cos(kLabelTuning.fillets_whole));
     for (int axis = 0; axis < 3; ++axis) result.chamfers[axis] = result.chamfers[axis] || is_chamfer(face, frames.front(), axis);
   }
   return result;
@@ -53,10 +49,10 @@ std::vector<LabelVariant> variants(const Choices& choices) {
   std::vector<LabelVariant> list;
   const auto add = [&](LabelVariant v) {
     list.push_back(v);
-    v.widest_bend = kFilletsWhole;
+    v.widest_bend = kLabelTuning.fillets_whole;
     if (choices.bends) list.push_back(v);
   };
-  for (const double strictness : {LabelOptions{}.strictness, kStrict}) {
+  for (const double strictness : {LabelOptions{}.strictness, kLabelTuning.strict}) {
     for (const bool narrow : {false, true}) add({.strictness = strictness, .narrow_regions = narrow});
   }
   list.push_back({.room = false});
@@ -64,7 +60,7 @@ std::vector<LabelVariant> variants(const Choices& choices) {
     if (choices.chamfers[axis]) add({.chamfer_axis = axis});
   }
   for (int f = 1; f < choices.frames; ++f) list.push_back({.frame = f});  // costly: most faces are oblique in it
-  for (const double compactness : kCompactness) add({.compactness = compactness});
+  for (const double compactness : kLabelTuning.compactness) add({.compactness = compactness});
   add({.gradual = false});
   return list;
 }
@@ -92,7 +88,7 @@ std::string describe(const LabelVariant& v) {
 }
 
 // What is wrong before the labels are ranked by how near they are to the normals.
-double badness(const Labelled& l) { return l.faults + kLostFeature * l.lost_features; }
+double badness(const Labelled& l) { return l.faults + kLabelTuning.lost_feature * l.lost_features; }
 
 bool better(const Labelled& a, const Labelled& b) {
   const auto rank = [](const Labelled& l) { return std::tuple(l.faults > 0, badness(l), l.report.energy); };

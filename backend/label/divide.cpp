@@ -9,17 +9,10 @@
 
 #include "core/charts.h"
 #include "label/straighten.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-// A plane takes the label of an axis only if its normal has this share of it.
-constexpr double kLeastShare = 0.2;
-
-// A face whose normals are all within this of their mean, along any axis, is none that bends (guess: 6 degrees).
-constexpr double kLeastTurn = 0.1;
-// Where a bent face is divided, as shares of its extent: in the middle for a lens, near an end for the trailing edge of a wing.
-constexpr std::array kBentShares{0.5, 0.3, 0.7, 0.15, 0.85};
 
 // From the vertex to the middle of the face, in the frame.
 Vec3 way_to_middle(const TetMesh& mesh, int face, const Vec3& vertex, const Mat3& frame) {
@@ -116,10 +109,10 @@ double third_side(const Vec3& normal, const Vec3& way, int part, int other) {
 
 std::vector<FaceCut> plane_cuts(const Vec3& normal) {
   std::vector<FaceCut> cuts;
-  if (normal.cwiseAbs().minCoeff() > kLeastShare) cuts.push_back({ray(normal, 0).normalized(), 0.5, true});
+  if (normal.cwiseAbs().minCoeff() > kLabelTuning.least_share) cuts.push_back({ray(normal, 0).normalized(), 0.5, true});
   for (int along = 0; along < 3; ++along) {
     // The line runs along one axis and divides the plane between the two others.
-    if (std::abs(normal[(along + 1) % 3]) < kLeastShare || std::abs(normal[(along + 2) % 3]) < kLeastShare) continue;
+    if (std::abs(normal[(along + 1) % 3]) < kLabelTuning.least_share || std::abs(normal[(along + 2) % 3]) < kLabelTuning.least_share) continue;
     const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
     for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share, false});
   }
@@ -131,8 +124,8 @@ std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning) {
   mean.cwiseAbs().maxCoeff(&own);
   const int k = turning[(own + 1) % 3] > turning[(own + 2) % 3] ? (own + 1) % 3 : (own + 2) % 3;
   std::vector<FaceCut> cuts;
-  if (turning[k] < kLeastTurn) return cuts;
-  for (double share : kBentShares) cuts.push_back({Vec3::Unit(k), share, false});
+  if (turning[k] < kLabelTuning.least_turn) return cuts;
+  for (double share : kLabelTuning.bent_shares) cuts.push_back({Vec3::Unit(k), share, false});
   return cuts;
 }
 

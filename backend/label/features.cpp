@@ -9,13 +9,10 @@
 #include <numeric>
 
 #include "core/charts.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Price of changing the constant axis once along an edge, as a share of its length: low enough that a circle becomes four arcs (which saves
-// 0.08 of its length per change), high enough that a gently bent edge stays one piece.
-constexpr double kTurnPrice = 0.04;
 
 class Groups {
  public:
@@ -115,7 +112,7 @@ class Finder {
         if (k != label_axis(p)) cost[i][k] = length * d[k] * d[k] / across;
       }
     }
-    const double turn = kTurnPrice * model_.edge(edge).length;
+    const double turn = kLabelTuning.turn_price * model_.edge(edge).length;
     const auto change = [&](int a, int b) { return a == b || a == 3 || b == 3 ? 0.0 : turn; };
     // A closed edge is walked twice round; the choices of the second half of the first round and the first half of the second are the cyclic ones.
     const bool closed = chain.front() == chain.back();
@@ -159,13 +156,12 @@ class Finder {
 
   // Is the axis really constant along the run? Charts at its two ends then stand level on the part and may do so in the image.
   bool is_level(const Run& run) const {
-    constexpr double kLevel = 1e-3;  // of the run's extent
     Vec3 low = frame_ * mesh_.points[run.nodes.front()], high = low;
     for (int node : run.nodes) {
       low = low.cwiseMin(frame_ * mesh_.points[node]);
       high = high.cwiseMax(frame_ * mesh_.points[node]);
     }
-    return (high - low)[run.axis] <= kLevel * (high - low).norm();
+    return (high - low)[run.axis] <= kLabelTuning.level * (high - low).norm();
   }
 
   // Would some triangle at the runs' nodes have no area in the image?

@@ -6,14 +6,10 @@
 
 #include "core/charts.h"
 #include "core/error.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Radians: frames nearer to each other are one.
-constexpr double kSameFrame = 0.1;
-// Cosines of 85 and 100 degrees.
-constexpr double kTowards = 0.087, kAgainst = -0.174;
 
 struct Vote {
   Vec3 direction;
@@ -116,8 +112,8 @@ Mat3 frame_of_vertices(const CadModel& model) {
 /// Least and largest cosine between a face's normals and the six labels.
 struct Spread {
   std::array<double, 6> least, most;
-  bool towards(int label) const { return most[label] > kTowards; }
-  bool possible(int label) const { return towards(label) && least[label] > kAgainst; }
+  bool towards(int label) const { return most[label] > kLabelTuning.towards; }
+  bool possible(int label) const { return towards(label) && least[label] > kLabelTuning.against; }
 };
 
 Spread spread_of(const TetMesh& mesh, const Mat3& to_frame, int face) {
@@ -185,7 +181,7 @@ std::vector<Mat3> find_frames(const CadModel& model, std::size_t most) {
     // Of equals the first.
     const std::pair<double, Mat3>* best = nullptr;
     for (const auto& triple : triples) {
-      if (std::any_of(frames.begin(), frames.end(), [&](const Mat3& f) { return frame_turn(f, triple.second) < kSameFrame; })) continue;
+      if (std::any_of(frames.begin(), frames.end(), [&](const Mat3& f) { return frame_turn(f, triple.second) < kLabelTuning.same_frame; })) continue;
       if (!best || triple.first > best->first * (1 + 1e-9)) best = &triple;
     }
     if (!best) break;

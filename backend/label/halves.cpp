@@ -5,17 +5,9 @@
 #include <cmath>
 
 #include "core/charts.h"
+#include "label/tuning.h"
 
 namespace polycube {
-namespace {
-
-// Planes and axes of barrels further off the axes of the frame than about 5 degrees may be halved.
-constexpr double kLevelCosine = 0.996;
-// A cut nearer to a CAD vertex of its face than the first share of the face's extent moves on by the second: through the vertex it would leave
-// open which side the vertex is on.
-constexpr double kOffVertex = 0.04, kAside = 0.15;
-
-}  // namespace
 
 Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(shapes) {
   const auto n = s_.mesh.triangles.size();
@@ -29,7 +21,7 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
       slope_[f] = s_.frame * s_.model.face(barrel_[f]).axis;
     } else if (!s_.cuts[f].across.isZero()) {
       slope_[f] = s_.cuts[f].across;
-    } else if (s_.flat[f] && slope_[f].isZero() && s_.normal[t].cwiseAbs().maxCoeff() <= kLevelCosine) {
+    } else if (s_.flat[f] && slope_[f].isZero() && s_.normal[t].cwiseAbs().maxCoeff() <= kLabelTuning.level_cosine) {
       int axis = 0;
       s_.normal[t].cwiseAbs().maxCoeff(&axis);
       slope_[f] = (Vec3::Unit(axis) - s_.normal[t][axis] * s_.normal[t]).normalized();
@@ -118,7 +110,7 @@ void Halves::find_middles(const std::vector<int>& labels) {
     for (int e : s_.model.face(static_cast<int>(f)).edges) {
       for (int v : s_.model.edge(e).vertices) {
         const double off = middle_[f][0] - slope_[f].dot(s_.frame * s_.model.vertex(v));
-        if (std::abs(off) < kOffVertex * extent) middle_[f][0] += (off < 0 ? -kAside : kAside) * extent;
+        if (std::abs(off) < kLabelTuning.off_vertex * extent) middle_[f][0] += (off < 0 ? -kLabelTuning.aside : kLabelTuning.aside) * extent;
       }
     }
   }
@@ -129,7 +121,8 @@ void Halves::find_barrels() {
   barrel_.assign(s_.model.face_count() + 1, 0);
   for (const int f : s_.model.faces()) {
     const CadFace& face = s_.model.face(f);
-    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) || (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLevelCosine)
+    if (face.kind != SurfaceKind::kCylinder || s_.whole[f] || (s_.room && s_.room->on(f)) ||
+        (s_.frame * face.axis).cwiseAbs().maxCoeff() > kLabelTuning.level_cosine)
       continue;
     barrel_[f] = f;
     for (int e : face.edges) {

@@ -20,27 +20,10 @@
 #include "label/search.h"
 #include "label/straighten.h"
 #include "label/strays.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-// A planar face within about 15 degrees of an axis has the label of that axis.
-constexpr double kAlignedCosine = 0.966;
-// Normals within about 10 degrees of their mean: as good as a plane.
-constexpr double kFlatCosine = 0.985;
-// A cone whose normals are within about 37 degrees of its axis is blunt.
-constexpr double kBluntCosine = 0.8;
-// Stretched by this along the axis that it shall have, a chamfer of 45 degrees becomes one of 29.
-constexpr double kChamferTurn = 1.8;
-// Cosines of 60 and 30 degrees.
-constexpr double kChamferFrom = 0.5, kChamferTo = 0.866;
-constexpr double kSharpBend = std::numbers::pi / 6;
-// Share of its face's largest piece below which a piece of a face is no region of its own; with narrow regions, unless it is this many mean edges wide.
-constexpr double kSmallShare = 0.04, kNarrow = 1.5;
-// Divisions of oblique planes tried for one labelling.
-constexpr int kMostDivisions = 60;
-// Where the rise of strictness begins.
-constexpr double kFirstStrictness = 10;
 
 struct Setup {
   const CadModel& model;
@@ -73,14 +56,14 @@ Vec3 as_seen(const Setup& s, int face_id, Vec3 n) {
   const CadFace& face = s.model.face(face_id);
   if (face.kind == SurfaceKind::kCone) {
     const Vec3 axis = s.frame * face.axis;
-    if (std::abs(n.dot(axis)) > kBluntCosine) return n.dot(axis) > 0 ? axis : Vec3(-axis);
+    if (std::abs(n.dot(axis)) > kLabelTuning.blunt_cosine) return n.dot(axis) > 0 ? axis : Vec3(-axis);
   }
   const bool ring = face.kind == SurfaceKind::kTorus && s.options.widest_bend > std::numbers::pi / 4;
   const bool round = face.kind == SurfaceKind::kCone || face.kind == SurfaceKind::kRevolution || ring;
   if (!round) return n;
   const Vec3 axis = s.frame * face.axis;
   int k = 0;
-  if (axis.cwiseAbs().maxCoeff(&k) < kAlignedCosine || std::abs(n[k]) > 0.97) return n;
+  if (axis.cwiseAbs().maxCoeff(&k) < kLabelTuning.aligned_cosine || std::abs(n[k]) > 0.97) return n;
   n[k] *= 0.4;
   return n.normalized();
 }
@@ -98,13 +81,13 @@ double data_cost(const Setup& s, int t, int label) {
   const Vec3& normal = s.normal[t];
   if (k < 0 || !is_chamfer(s.model.face(s.mesh.triangle_face[t]), s.frame, k)) return data_cost(normal, label);
   Vec3 turned = normal;
-  turned[k] *= kChamferTurn;
+  turned[k] *= kLabelTuning.chamfer_turn;
   return data_cost(turned.normalized(), label);
 }
 
 double change_weight(double angle, bool same_face) {
   if (same_face) return 1;
-  return std::abs(angle - std::numbers::pi) > kSharpBend ? 0.1 : 0.5;
+  return std::abs(angle - std::numbers::pi) > kLabelTuning.sharp_bend ? 0.1 : 0.5;
 }
 
 Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame, std::vector<FaceCut> face_cuts,
@@ -126,7 +109,7 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     const int f = mesh.triangle_face[t];
     const double cosine = s.normal[t].dot(mean[f].normalized());
     if (cosine < std::cos(options.widest_bend)) s.whole[f] = 0;
-    if (cosine < kFlatCosine) s.flat[f] = 0;
+    if (cosine < kLabelTuning.flat_cosine) s.flat[f] = 0;
   }
   for (std::size_t t = 0; t < n; ++t) {
     const int f = mesh.triangle_face[t];
@@ -165,8 +148,8 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
     for (int l = 0; l < 6; ++l) {
       double cost = s.options.fidelity * data_cost(s, static_cast<int>(t), l) * s.area[t] / (scale * s.scale);
       if (given[f] >= 0 && given[f] != l) cost = kForbidden;
-      const bool planar = face.kind == SurfaceKind::kPlane && s.normal[t].cwiseAbs().maxCoeff() > kAlignedCosine;
-      if (given[f] < 0 && planar && label_sign(l) * s.normal[t][label_axis(l)] < kAlignedCosine) cost = kForbidden;
+      const bool planar = face.kind == SurfaceKind::kPlane && s.normal[t].cwiseAbs().maxCoeff() > kLabelTuning.aligned_cosine;
+      if (given[f] < 0 && planar && label_sign(l) * s.normal[t][label_axis(l)] < kLabelTuning.aligned_cosine) cost = kForbidden;
       problem.data[node[t]][l] = std::min(problem.data[node[t]][l] + cost, kForbidden);
     }
   }
@@ -241,8 +224,8 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
     bool changed = false;
     for (std::size_t id = 0; id < members.size(); ++id) {
       const int face = s.mesh.triangle_face[members[id][0]];
-      if (area[id] > kSmallShare * largest[face]) continue;
-      if (s.options.narrow_regions && area[id] > kNarrow * edge * extent(s.mesh, members[id])) continue;
+      if (area[id] > kLabelTuning.small_share * largest[face]) continue;
+      if (s.options.narrow_regions && area[id] > kLabelTuning.narrow * edge * extent(s.mesh, members[id])) continue;
       std::map<int, double> border;
       for (int t : members[id]) {
         for (int k = 0; k < 3; ++k) {
@@ -382,7 +365,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
   points.reserve(mesh.points.size());
   for (const Vec3& p : mesh.points) points.push_back(s.frame * p);
   if (room) give_strips(model, mesh, *room, graph, region_label);
-  for (double strictness = options.gradual ? std::min(kFirstStrictness, options.strictness) : options.strictness;; strictness *= 2) {
+  for (double strictness = options.gradual ? std::min(kLabelTuning.first_strictness, options.strictness) : options.strictness;; strictness *= 2) {
     region_label = repair(graph, points, std::move(region_label), 0.75 * edge, std::min(strictness, options.strictness), options.threads, monitor);
     if (strictness >= options.strictness) break;
   }
@@ -468,7 +451,7 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
     changed = false;
     for (int f : faces_at_fault(*best)) {
       for (const FaceCut& cut : cuts_of(*best, f)) {
-        if (best->left.valid() || tries++ >= kMostDivisions) return best;
+        if (best->left.valid() || tries++ >= kLabelTuning.most_divisions) return best;
         std::vector<FaceCut> cuts = best->setup.cuts;
         cuts[f] = cut;
         changed |= better_with(best->setup.tips, cuts);
@@ -495,7 +478,7 @@ Labelling realise(const Plan& plan, TetMesh& mesh, const Monitor& monitor) {
 
 bool is_chamfer(const CadFace& face, const Mat3& frame, int axis) {
   const double cosine = std::abs(frame.row(axis).dot(face.axis));
-  return face.kind == SurfaceKind::kPlane && cosine > kChamferFrom && cosine < kChamferTo;
+  return face.kind == SurfaceKind::kPlane && cosine > kLabelTuning.chamfer_from && cosine < kLabelTuning.chamfer_to;
 }
 
 Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& options, const Monitor& monitor, LabelReport* report) {

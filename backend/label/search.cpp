@@ -5,11 +5,10 @@
 
 #include "core/parallel.h"
 #include "label/graph_cut.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-constexpr int kMaxMoves = 400;
 
 struct Move {
   std::vector<int> regions;
@@ -87,7 +86,7 @@ std::vector<int> repair(const RegionGraph& graph, const std::vector<Vec3>& point
   const ViolationFinder finder(graph, points, noise);
   Violations violations = finder.find(label);
   double current = weight * violations.score + region_energy(graph, label);
-  for (int step = 0; step < kMaxMoves && violations.score > 0; ++step) {
+  for (int step = 0; step < kLabelTuning.max_moves && violations.score > 0; ++step) {
     monitor.check();
     const std::vector<Move> moves = moves_near(graph, violations, near, label);
     const double enough = current * (1 - 1e-12) - 1e-9;

@@ -6,18 +6,10 @@
 
 #include "core/charts.h"
 #include "core/tet_edit.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
-
-// A point nearer to the border than this share of the edge that crosses it is put on the border.
-constexpr double kSnap = 0.2;
-// The smallest piece of an edge that is cut.
-constexpr double kThinnest = 0.05;
-// A border bends towards where it has to end over this many times the way it is off there, and this many mean edges at least.
-constexpr double kBendLength = 5, kBendEdges = 2;
-// Mean edges within which a border is looked for about the place where it ended before.
-constexpr double kStray = 6;
 
 class Cutter {
  public:
@@ -95,7 +87,8 @@ class Cutter {
           if (other != kNoOpinion) slope = std::max(slope, std::abs(other - value) / (mesh_.points[n] - mesh_.points[node]).norm());
         }
       }
-      if (slope > 0) result.push_back({mesh_.points[node], value, std::max(kBendLength * std::abs(value) / slope, kBendEdges * edge_)});
+      if (slope > 0)
+        result.push_back({mesh_.points[node], value, std::max(kLabelTuning.bend_length * std::abs(value) / slope, kLabelTuning.bend_edges * edge_)});
     }
     return result;
   }
@@ -105,7 +98,7 @@ class Cutter {
     for (int end : border.ends) {
       const CadRef cad = mesh_.point_cad[end];
       if (cad.dim != 1 || pins_.count(end) > 0) continue;
-      double nearest = kStray * edge_;
+      double nearest = kLabelTuning.stray * edge_;
       for (const auto& [n, v] : value) {
         const double way = (mesh_.points[n] - mesh_.points[end]).norm();
         if (v != 0 || mesh_.point_cad[n] != cad || way >= nearest) continue;
@@ -138,7 +131,7 @@ class Cutter {
     for (const auto& [a, b] : edges) {
       const double va = value[a], vb = value[b];
       if (va == kNoOpinion || vb == kNoOpinion || va * vb >= 0) continue;
-      const double t = std::clamp(va / (va - vb), kThinnest, 1 - kThinnest);
+      const double t = std::clamp(va / (va - vb), kLabelTuning.thinnest, 1 - kLabelTuning.thinnest);
       value[editor_.split_edge(a, b, (1 - t) * mesh_.points[a] + t * mesh_.points[b])] = 0;
       origins_.push_back({a, b, t});
     }
@@ -173,8 +166,8 @@ class Cutter {
       const double va = value[a], vb = value[b];
       if (va == kNoOpinion || vb == kNoOpinion || va * vb >= 0) continue;
       const double t = va / (va - vb);
-      if (t < kSnap) towards(a, b, t);
-      if (t > 1 - kSnap) towards(b, a, 1 - t);
+      if (t < kLabelTuning.snap) towards(a, b, t);
+      if (t > 1 - kLabelTuning.snap) towards(b, a, 1 - t);
     }
     for (const auto& [node, move] : moves) {
       if (editor_.move(node, mesh_.points[node] + move.second)) {

@@ -6,14 +6,11 @@
 
 #include "core/charts.h"
 #include "label/straighten.h"
+#include "label/tuning.h"
 #include "label/validity.h"
 
 namespace polycube {
 namespace {
-
-constexpr int kStrayTriangles = 4;
-// Share of its CAD face, and mean edges squared, below which a chart is a sliver.
-constexpr double kStrayShare = 0.02, kStrayArea = 4;
 
 class Strays {
  public:
@@ -63,7 +60,8 @@ class Strays {
     }
     const double whole = face_area_.at(face);
     if (area > 0.5 * whole) return false;
-    return std::ssize(chart.triangles) <= kStrayTriangles || area < std::min(kStrayArea * edge_ * edge_, kStrayShare * whole);
+    return std::ssize(chart.triangles) <= kLabelTuning.stray_triangles ||
+           area < std::min(kLabelTuning.stray_area * edge_ * edge_, kLabelTuning.stray_share * whole);
   }
 
   // By length of border, inside the CAD face if there is any.

@@ -10,24 +10,12 @@
 #include "core/charts.h"
 #include "label/graph_cut.h"
 #include "label/straighten.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Room beside an edge: this many triangles, within these bounds.
-constexpr double kTriangles = 2;
-constexpr double kLeastRoom = 10 * kDegree, kMostRoom = 25 * kDegree;
-// Share of the room within which the line at 45 degrees is too close.
-constexpr double kClose = 0.5;
-// An edge this far beyond the line at 45 degrees still belongs to the side it comes from.
-constexpr double kBeyond = 30 * kDegree;
-// An edge that spans less runs along the barrel.
-constexpr double kStraight = 5 * kDegree;
-// The line is looked for by this much to both sides, and halved down to nothing.
-constexpr double kStep = 3 * kDegree;
-constexpr int kBisections = 40;
-constexpr int kSamples = 65;
 
 int label_of(const Vec3& n) {
   int axis = 0;
@@ -60,7 +48,7 @@ class Barrel {
 // Angles on the barrel along an edge, without jumps.
 std::vector<double> course(const CadModel& model, const Barrel& barrel, int edge) {
   std::vector<double> angles;
-  for (const Vec3& p : model.edge_samples(edge, kSamples)) {
+  for (const Vec3& p : model.edge_samples(edge, kLabelTuning.samples)) {
     const double a = barrel.angle(p);
     angles.push_back(angles.empty() ? a : angles.back() + std::remainder(a - angles.back(), 2 * std::numbers::pi));
   }
@@ -69,12 +57,12 @@ std::vector<double> course(const CadModel& model, const Barrel& barrel, int edge
 
 // The strip beside the place at `angle` whose edges are on its lower (`side` 1) or upper (-1) side.
 std::optional<Strip> strip_beside(const Barrel& barrel, int face, double angle, double side, double room) {
-  double way = kClose * room;
-  while (way > -kBeyond && barrel.label(angle + side * way).second > 2 * kDegree) way -= kDegree;
-  double near = angle + side * (way - kStep), far = angle + side * (way + kStep);
+  double way = kLabelTuning.close * room;
+  while (way > -kLabelTuning.beyond && barrel.label(angle + side * way).second > 2 * kDegree) way -= kDegree;
+  double near = angle + side * (way - kLabelTuning.line_step), far = angle + side * (way + kLabelTuning.line_step);
   const int label = barrel.label(near).first;
-  if (way <= -kBeyond || barrel.label(far).first == label) return std::nullopt;
-  for (int i = 0; i < kBisections; ++i) {
+  if (way <= -kLabelTuning.beyond || barrel.label(far).first == label) return std::nullopt;
+  for (int i = 0; i < kLabelTuning.bisections; ++i) {
     const double middle = (near + far) / 2;
     (barrel.label(middle).first == label ? near : far) = middle;
   }
@@ -98,7 +86,8 @@ Vec3 middle_of(const TetMesh& mesh, int triangle) {
 std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int face, double size) {
   const Barrel barrel(model, frame, face);
   const double radius = model.face(face).radius;
-  const double room = radius > 0 ? std::clamp(kTriangles * size / radius, kLeastRoom, kMostRoom) : kLeastRoom;
+  const double room =
+      radius > 0 ? std::clamp(kLabelTuning.room_triangles * size / radius, kLabelTuning.least_room, kLabelTuning.most_room) : kLabelTuning.least_room;
   std::vector<Strip> strips;
   std::map<std::pair<int, double>, int> ends;  // (vertex, side) -> edges that are furthest on that side there
   const auto add = [&](double angle, double side) {
@@ -109,7 +98,7 @@ std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int fac
     if (edge.seam || edge.degenerate) continue;
     const std::vector<double> angles = course(model, barrel, e);
     const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-    if (*most - *least < kStraight || std::abs(angles.back() - angles.front()) > std::numbers::pi) continue;
+    if (*most - *least < kLabelTuning.straight || std::abs(angles.back() - angles.front()) > std::numbers::pi) continue;
     for (const auto& [furthest, side] : {std::pair(most, 1.0), std::pair(least, -1.0)}) {
       const bool at_end = furthest == angles.begin() || furthest + 1 == angles.end();
       // At a vertex the next edge has to turn back too.

@@ -8,6 +8,7 @@
 
 #include "core/charts.h"
 #include "core/union_find.h"
+#include "label/tuning.h"
 
 namespace polycube {
 namespace {
@@ -101,12 +102,6 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   constexpr std::size_t kLongest = 12;  // no corner has as many
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
-
-// Two CAD edges that meet in a tip, both less than 60 degrees (guess) from the axis of the boundary that goes forth on one and back on the other: no map opens
-// that, however short they are. Smooth edges that pass their turning point by a little run flat there.
-constexpr double kSteep = 0.5;
-// Of the noise, what a boundary must go back at such a tip at least: rounding is no reversal.
-constexpr double kRealShare = 0.01;
 
 }  // namespace
 
@@ -285,7 +280,7 @@ class ViolationFinder::Check {
     bool counted = false, tip = false, was_forward = true, was_steep = false;
     std::size_t turn = first, at = first;
     const auto count_if_far = [&] {
-      if (counted || high - low <= (tip ? kRealShare : 1) * f_.noise_) return;
+      if (counted || high - low <= (tip ? kLabelTuning.real_share : 1) * f_.noise_) return;
       ++result_.turning_points;
       for (std::size_t i = turn; i <= at; ++i) blame(loop[i]);
       counted = true;
@@ -334,7 +329,7 @@ ViolationFinder::Course ViolationFinder::course(const std::vector<Vec3>& points,
   Course result{{points[arc.nodes.front()][axis], false}};
   for (std::size_t i = 1; i < arc.nodes.size(); ++i) {
     const Vec3 step = points[arc.nodes[i]] - points[arc.nodes[i - 1]];
-    Place place{points[arc.nodes[i]][axis], arc.cad_dim[i - 1] < 2 && arc.cad_dim[i] < 2 && std::abs(step[axis]) > kSteep * step.norm()};
+    Place place{points[arc.nodes[i]][axis], arc.cad_dim[i - 1] < 2 && arc.cad_dim[i] < 2 && std::abs(step[axis]) > kLabelTuning.steep * step.norm()};
     const std::size_t n = result.size();
     if (n > 1 && (result[n - 1].x - result[n - 2].x) * (place.x - result[n - 1].x) >= 0) {  // what lies between two places reverses nothing
       place.steep = place.steep || result[n - 1].steep;

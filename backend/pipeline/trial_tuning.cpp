@@ -13,6 +13,7 @@
 #include "deform/tuning.h"
 #include "fem/tuning.h"
 #include "hex/tuning.h"
+#include "label/tuning.h"
 #include "pipeline/tuning.h"
 #include "quantize/tuning.h"
 #include "tet/tuning.h"
@@ -50,6 +51,7 @@ std::vector<Entry> all_entries() {
   add_stage<CoreTuning>(entries, "core");
   add_stage<CadTuning>(entries, "cad");
   add_stage<TetTuning>(entries, "tet");
+  add_stage<LabelTuning>(entries, "label");
   add_stage<DeformTuning>(entries, "deform");
   add_stage<BlocksTuning>(entries, "blocks");
   add_stage<QuantizeTuning>(entries, "quantize");

@@ -6,15 +6,13 @@
 #include <numbers>
 
 #include "core/hexahedron.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kWidest = 150 * kPi / 180;  // a cell this wide is flat
-constexpr double kSunk = 1000;      // of a hex below the boundary that touches it along two edges from one node: that corner is flat, as at an angle of kWidest
-constexpr double kFlatInside = 35;  // of a flat inner corner, over its sine: some 100 where the CAD edge turns by 20 degrees, 1200 where it is straight
 
 double dihedral_angle(const CadModel& model, int id, const Vec3& p) {
   const CadEdge& edge = model.edge(id);
@@ -110,19 +108,18 @@ double corner_angle(const CadModel& model, const HexMesh& mesh, const Associatio
   const Vec3 normal = model.vertex_normal(face, vertex);
   const double angle = turn(normal, from.tangent, to.tangent);
   // Edges that leave in one direction bound a cusp or nearly a full turn: their curvature tells which.
-  constexpr double kCusp = 0.02;
-  return angle < kCusp || angle > 2 * kPi - kCusp ? turn(normal, from.chord, to.chord) : angle;
+  return angle < kPadTuning.cusp || angle > 2 * kPi - kPadTuning.cusp ? turn(normal, from.chord, to.chord) : angle;
 }
 
 }  // namespace
 
 double angle_cost(int cells, double angle) {
   const double each = angle / cells;
-  if (each >= kWidest) return 1000 * each / kWidest;
+  if (each >= kPadTuning.widest) return 1000 * each / kPadTuning.widest;
   // A sharp corner of the CAD must not be cut up further: its cells come near to folding over.
   const double narrow = std::max(each, 0.01), needle = 20 * kPi / 180;
   // A second cell in a corner that is too narrow for one is a cell folded over: worse than a flat one.
-  const double folded = angle < kOneCell ? 4000.0 * (cells - 1) : 0;
+  const double folded = angle < kPadTuning.one_cell ? 4000.0 * (cells - 1) : 0;
   return 1 / std::sin(narrow) - 1 + 20 * std::max(needle / narrow - 1, 0.0) + folded;
 }
 
@@ -210,7 +207,7 @@ double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Assoc
       if (association.point_cad[node].dim == 2) {
         int neighbours = 0;
         for (const int n : kCornerNeighbours[c]) neighbours += is_inside_patch(node, hex[n]);
-        if (neighbours > 1 && is_inner(h, c, 0) && is_inner(h, c, 1) && is_inner(h, c, 2)) cost += kSunk;
+        if (neighbours > 1 && is_inner(h, c, 0) && is_inner(h, c, 1) && is_inner(h, c, 2)) cost += kPadTuning.sunk;
         continue;
       }
       for (int k = 0; k < 3; ++k) {
@@ -220,7 +217,7 @@ double inner_corner_cost(const CadModel& model, const HexMesh& mesh, const Assoc
         const Vec3 from = direction(first, node, a, second), to = direction(second, node, b, first);
         const double angle = std::atan2(from.cross(to).norm(), from.dot(to));
         // A chord takes some of the turn of a curved edge: such a cell is poor, not lost.
-        cost += angle < kWidest ? angle_cost(1, angle) : kFlatInside / std::max(std::sin(angle), 0.03);
+        cost += angle < kPadTuning.widest ? angle_cost(1, angle) : kPadTuning.flat_inside / std::max(std::sin(angle), 0.03);
       }
     }
   }

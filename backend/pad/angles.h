@@ -1,15 +1,10 @@
 // The CAD's angles at the edges and nodes of the boundary, and what it costs to fill them with a given number of cells.
 #pragma once
 
-#include <numbers>
-
 #include "pad/pad.h"
 #include "pad/topology.h"
 
 namespace polycube {
-
-/// Radians: a corner below this is too narrow for a second cell. Guess, above the crescents of 28 degrees of i04 and i20, where one cell does better.
-inline constexpr double kOneCell = 32 * std::numbers::pi / 180;
 
 /// Cost of dividing an angle (radians) among `cells` cells: 0 at 90 degrees each, growing as their best possible scaled Jacobian falls, at
 /// least 1000 where a cell would have to span 150 degrees or more.

@@ -15,22 +15,12 @@
 
 #include "core/charts.h"
 #include "core/error.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// Paths further from their CAD edge than this many cell sizes are no capture of it.
-constexpr double kReach = 3;
-// Cell sizes that a quad too many or too few between two CAD edges at a vertex costs.
-constexpr double kSpokePrice = 0.5;
-// Blame for a path all of which runs in other charts than its CAD edge, in cell sizes of deviation.
-constexpr double kAstrayBlame = 10;
-// Cell sizes that a chart too many at the node of a vertex costs, for each round in which an edge of the vertex found no path.
-constexpr double kSurplusPrice = 0.2;
-// Rounds of routing, and those without success after which it ends.
-constexpr int kRounds = 24;
-constexpr int kPatience = 8;
 
 std::uint64_t key(int a, int b) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(a)) << 32 | static_cast<std::uint32_t>(b); }
 
@@ -106,7 +96,7 @@ class Associator {
     find_spokes();
     std::optional<Association> best;
     double least = kNever;
-    for (int round = 0, idle = 0; round < kRounds && idle < kPatience; ++round, ++idle) {
+    for (int round = 0, idle = 0; round < kPadTuning.rounds && idle < kPadTuning.patience; ++round, ++idle) {
       Association result = associate_once();
       double deviation = 0;
       for (int e : real_) deviation += path_[e].deviation;
@@ -232,7 +222,7 @@ class Associator {
       wrong += std::abs(quads_between(node, step, neighbour) - expected);
       break;
     }
-    return kSpokePrice * options_.size * std::min(wrong, 6);
+    return kPadTuning.spoke_price * options_.size * std::min(wrong, 6);
   }
 
   // Vertices with lost edges that had no way to leave: fewer quads than edges between two captured edges there.
@@ -289,12 +279,12 @@ class Associator {
       const std::set<int>& charts = tet_charts_[tet_node[v]];
       for (int n : nodes_) {
         const double d = (b_.points[n] - model_.vertex(v)).norm() / options_.size;
-        if (d > kReach) continue;
+        if (d > kPadTuning.reach) continue;
         // A vertex on a chart boundary or corner belongs on one of the mesh.
         const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
         const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
         candidates.push_back(
-            {d + 2.0 * static_cast<double>(missing) + kSurplusPrice * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
+            {d + 2.0 * static_cast<double>(missing) + kPadTuning.surplus_price * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
       }
     }
     std::sort(candidates.begin(), candidates.end(),
@@ -431,7 +421,7 @@ class Associator {
         best = n;
       }
     }
-    return best_cost < kReach ? best : -1;
+    return best_cost < kPadTuning.reach ? best : -1;
   }
 
   // Price of the angle between two path edges at a node inside the grid: one quad on a side would become a flat corner.
@@ -464,7 +454,7 @@ class Associator {
     const auto push = [&](double base, int previous, int a, int b) {
       if ((b != to && owner_[b] != 0) || (b == to && taken_.count(std::minmax(a, b)) > 0)) return;
       const double da = away(a), db = away(b), size = options_.size;
-      if (db > kReach * size && b != to) return;
+      if (db > kPadTuning.reach * size && b != to) return;
       double cost = (b_.points[a] - b_.points[b]).norm() + 1e-3 * size;
       const double mean = (da + db) / (2 * size);
       cost *= 1 + 8 * mean + 16 * mean * mean;
@@ -538,7 +528,7 @@ class Associator {
     int culprit = 0;
     double culprit_cost = -1;
     const auto blame = [&](int e) {
-      const double cost = path_[e].deviation / options_.size + kAstrayBlame * path_[e].astray + 1e-6 * e;
+      const double cost = path_[e].deviation / options_.size + kPadTuning.astray_blame * path_[e].astray + 1e-6 * e;
       if (cost > culprit_cost) {
         culprit_cost = cost;
         culprit = e;

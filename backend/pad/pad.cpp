@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "pad/rings.h"
 #include "pad/surface.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 
@@ -56,9 +57,6 @@ struct Padded {
   }
 };
 
-// A choice that leaves this much more to be desired than the best leaves two cells flat that the best does not.
-constexpr double kHopeless = 2500;
-
 }  // namespace
 
 std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, const Association& association, const Monitor& monitor,
@@ -95,7 +93,7 @@ std::vector<PaddedMesh> pad_choices(const CadModel& model, const HexMesh& mesh, 
     if (!known) choices.push_back(std::move(choice));
   }
   std::stable_sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.gain > b.gain; });
-  const double enough = choices[0].gain - kHopeless;
+  const double enough = choices[0].gain - kPadTuning.hopeless;
   // The second best stays in any case: angles do not tell all.
   while (choices.size() > 2 && choices.back().gain < enough) choices.pop_back();
   // More cells for fewer flat ones: it pays where the flat ones would be inverted, which the fit shows.

@@ -6,20 +6,13 @@
 #include <set>
 
 #include "pad/trial.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kBadSector = 0.9;  // angle_cost from which a sector is worth a sheet: below about 32 or above 148 degrees a quad
-constexpr double kFlat = 500;       // half of what a flat cell costs
-constexpr double kStraightAngle =
-    175 * kPi / 180;  // measured: at corners of 169 degrees between arcs a sheet round the node alone makes the cells beside it worse (i09)
-constexpr double kLeastGain = 0.3;
-constexpr double kStraight = 2 * kPi / 12;  // a border turns less than this where a sheet may follow it
-constexpr int kReach = 4;                   // border nodes on each side of a bad one, for the shortest sheets
-constexpr int kMaxSheets = 400;
 
 // A part of a patch's border: nodes in order with the patch on the left, and whether the last leads to the first.
 struct Stretch {
@@ -88,7 +81,7 @@ bool take_cusps(const TrialMesh& whole, const std::vector<Sector>& sectors, int 
   for (const auto& [end, beside] : {std::array{stretch.nodes[0], stretch.nodes[1]}, std::array{stretch.nodes[count - 1], stretch.nodes[count - 2]}}) {
     auto at = std::lower_bound(sectors.begin(), sectors.end(), end, [](const Sector& s, int node) { return s.node < node; });
     for (; at != sectors.end() && at->node == end; ++at) {
-      if (at->patch != patch || at->quads != 1 || at->angle >= kOneCell || (at->first != beside && at->last != beside)) continue;
+      if (at->patch != patch || at->quads != 1 || at->angle >= kPadTuning.one_cell || (at->first != beside && at->last != beside)) continue;
       const int other = at->first == beside ? at->last : at->first;
       for (int q : whole.node_quads[end]) {
         const Quad& quad = whole.padded.association.quads[q];
@@ -111,8 +104,7 @@ SheetCut as_cut(const TrialMesh& whole, const Candidate& candidate) {
 
 // Fills in the gain; false if the sheet cannot be opened. Takes in more hexes of the patch where that makes it possible.
 bool rate(const TrialMesh& whole, int patch, Candidate& candidate) {
-  constexpr int kRepairs = 5;
-  for (int attempt = 0; attempt < kRepairs; ++attempt) {
+  for (int attempt = 0; attempt < kPadTuning.sheet_repairs; ++attempt) {
     const TrialResult result = try_sheet(whole, as_cut(whole, candidate));
     if (result.obstacles.empty()) {
       candidate.gain = result.gain;
@@ -155,7 +147,7 @@ class Border {
       if (is_corner(at)) return false;
     }
   }
-  bool is_corner(int i) const { return std::abs(sectors_[i].angle - kPi) > kStraight; }
+  bool is_corner(int i) const { return std::abs(sectors_[i].angle - kPi) > kPadTuning.straight; }
 
   // The stretches a sheet for this sector can follow.
   std::vector<Stretch> stretches(int start) const {
@@ -186,7 +178,7 @@ class Border {
     stretch.closed = closed;
     for (int i : list) {
       stretch.nodes.push_back(sectors_[i].node);
-      stretch.bad.push_back(angle_cost(sectors_[i].quads, sectors_[i].angle) >= kBadSector);
+      stretch.bad.push_back(angle_cost(sectors_[i].quads, sectors_[i].angle) >= kPadTuning.bad_sector);
     }
     return stretch;
   }
@@ -243,10 +235,10 @@ bool is_lost(const TrialMesh& whole, const Sector& sector) {
   const HexMesh& mesh = whole.padded.mesh;
   const Association& association = whole.padded.association;
   const CadRef& at = association.point_cad[sector.node];
-  if (sector.quads > 1 || sector.angle < kStraightAngle) return false;
+  if (sector.quads > 1 || sector.angle < kPadTuning.straight_angle) return false;
   if (at.dim != 1) return true;
   const auto tangent = [&](int node) { return whole.model.edge_tangent(at.id, whole.model.project_to_edge(at.id, mesh.points[node]).t); };
-  return tangent(sector.first).dot(tangent(sector.last)) > std::cos(kStraight);
+  return tangent(sector.first).dot(tangent(sector.last)) > std::cos(kPadTuning.straight);
 }
 
 // The best sheet for a bad sector; no hexes if none gains.
@@ -257,7 +249,7 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
     if (whole.padded.association.quad_patch[q] == patch) all.push_back(q);
   }
   Candidate best;
-  best.gain = kLeastGain;
+  best.gain = kPadTuning.least_gain;
   const auto consider = [&](const Stretch& stretch, const std::vector<int>& band, double handicap = 0) {
     if (band.empty()) return;
     Candidate candidate = make_candidate(whole, patch, stretch, band);
@@ -273,7 +265,7 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
     if (all.size() <= 4 * band.size()) consider(stretch, all);
     const Stretch shorter = trimmed(stretch);
     if (shorter.nodes.size() < stretch.nodes.size()) consider(shorter, band_of(whole, patch, shorter));
-    for (int reach = 2; reach <= kReach; ++reach) {
+    for (int reach = 2; reach <= kPadTuning.sheet_reach; ++reach) {
       if (2 * reach + 1 >= static_cast<int>(stretch.nodes.size())) break;
       const Stretch part = window(stretch, sectors[bad].node, reach);
       consider(part, band_of(whole, patch, part));
@@ -284,7 +276,7 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
   for (const Stretch& stretch : border.stretches(bad)) {
     if (stretch.nodes.size() < 4) continue;
     const Stretch part = window(stretch, sectors[bad].node, 1);
-    consider(part, band_of(whole, patch, part), kFlat);
+    consider(part, band_of(whole, patch, part), kPadTuning.flat);
   }
   return best;
 }
@@ -294,16 +286,18 @@ Candidate best_sheet(const TrialMesh& whole, const Border& border, const std::ve
 RingCount insert_rings(const CadModel& model, PaddedMesh& padded, RingWay way, const Monitor& monitor) {
   std::set<std::array<int, 2>> given_up;  // node, patch
   RingCount count;
-  for (bool again = true; again && count.sheets < kMaxSheets;) {
+  for (bool again = true; again && count.sheets < kPadTuning.max_sheets;) {
     again = false;
     std::vector<char> on_edge(padded.mesh.points.size(), 0);
     for (std::size_t v = 0; v < on_edge.size(); ++v) on_edge[v] = padded.association.point_cad[v].dim <= 1;
     const auto sectors = find_sectors(model, padded.mesh, padded.association, on_edge);
-    count.flat = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.quads == 1 && s.angle >= kStraightAngle; });
-    count.cusps = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.angle < kOneCell; });
+    count.flat =
+        std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.quads == 1 && s.angle >= kPadTuning.straight_angle; });
+    count.cusps = std::any_of(sectors.begin(), sectors.end(), [](const Sector& s) { return s.first >= 0 && s.angle < kPadTuning.one_cell; });
     std::vector<int> bad;
     for (int i = 0; i < static_cast<int>(sectors.size()); ++i) {
-      if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kBadSector && given_up.count({sectors[i].node, sectors[i].patch}) == 0) {
+      if (sectors[i].first >= 0 && angle_cost(sectors[i].quads, sectors[i].angle) >= kPadTuning.bad_sector &&
+          given_up.count({sectors[i].node, sectors[i].patch}) == 0) {
         bad.push_back(i);
       }
     }

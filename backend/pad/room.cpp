@@ -5,13 +5,10 @@
 #include "core/hexahedron.h"
 #include "pad/sheet.h"
 #include "pad/topology.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Cells along the side of the block that gets the layer; fewer where these do not fit. Measured: 1, 2, 3 and 5 give a bevelled cube min SJ .437, .482,
-// .451, .480, its like in an L .368, .467, .451, .474.
-constexpr int kWidest = 2;
 
 // A hex, seen from one of its corners with the three neighbours of that corner.
 struct Seat {
@@ -99,7 +96,7 @@ int make_room(HexMesh& mesh, RoomySurface surface, const CrowdedCorner& corner) 
   for (const Quad& q : surface.quads) {
     for (int n : q) bare.point_cad[n] = {2, 0};
   }
-  for (int width = kWidest; width > 0; --width) {
+  for (int width = kPadTuning.room_width; width > 0; --width) {
     const SheetCut cut = block(mesh, surface.quads, topology, corner, width);
     OpenedMesh opened = open_sheet(mesh, bare, cut, topology);
     if (!opened.obstacles.empty()) continue;

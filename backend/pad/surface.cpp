@@ -8,23 +8,13 @@
 #include <set>
 
 #include "core/hexahedron.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-// Across an edge wider than this a layer cannot end: its one cell there would be too flat.
-constexpr double kWidestEnd = 130 * kPi / 180;
-// From here on an edge is concave: a layer can go on into the solid.
-constexpr double kConcave = 215 * kPi / 180;
-// angle_cost from which an edge of a smooth region is at fault: cells of 148 degrees or more.
-constexpr double kBadEdge = 0.9;
-// Among layers that mend a region, the price of a quad.
-constexpr double kSmallPrice = 0.002;
-// What a padded quad must bring for a region to be looked at. A bore's four lines of three cells (60 degrees each) are not worth a layer;
-// one line of one cell (180 degrees) is.
-constexpr double kQuadPrice = 0.15;
 
 struct Regions {
   std::vector<int> of_quad;
@@ -42,7 +32,7 @@ Regions find_regions(const Association& association, const std::vector<BoundaryE
     return x;
   };
   for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (angles[e] <= kWidestEnd || angles[e] >= kConcave) continue;
+    if (angles[e] <= kPadTuning.widest_end || angles[e] >= kPadTuning.concave) continue;
     const int x = find(edges[e].quads[0]), y = find(edges[e].quads[1]);
     root[std::max(x, y)] = std::min(x, y);
   }
@@ -57,7 +47,7 @@ Regions find_regions(const Association& association, const std::vector<BoundaryE
     } else {
       regions.of_quad[q] = regions.of_quad[r];
     }
-    regions.own[regions.of_quad[q]] += kQuadPrice;
+    regions.own[regions.of_quad[q]] += kPadTuning.quad_price;
     regions.patch[regions.of_quad[q]] = std::min(regions.patch[regions.of_quad[q]], association.quad_patch[q]);
   }
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -129,7 +119,7 @@ class Chooser {
     std::vector<std::vector<int>> node_edges(mesh_.points.size()), chains;
     std::vector<char> open(edges_.size(), 0);
     for (int e = 0; e < static_cast<int>(edges_.size()); ++e) {
-      if (angles_[e] <= kWidestEnd || angle_cost(edges_[e].hexes, angles_[e]) < kBadEdge) continue;
+      if (angles_[e] <= kPadTuning.widest_end || angle_cost(edges_[e].hexes, angles_[e]) < kPadTuning.bad_edge) continue;
       open[e] = 1;
       node_edges[edges_[e].a].push_back(e);
       node_edges[edges_[e].b].push_back(e);
@@ -202,7 +192,7 @@ class Chooser {
       const TrialResult result = try_sheet(whole_, cut);
       if (result.obstacles.empty()) {
         const int quads = static_cast<int>(std::count(surface.begin(), surface.end(), 1));
-        const double gain = result.gain - kSmallPrice * quads;
+        const double gain = result.gain - kPadTuning.small_price * quads;
         if (gain > best.gain) best = {std::move(cut), gain, quads};
         return;
       }
@@ -226,7 +216,7 @@ class Chooser {
       grown = false;
       for (std::size_t e = 0; e < edges_.size(); ++e) {
         const int r = regions_.of_quad[edges_[e].quads[0]], s = regions_.of_quad[edges_[e].quads[1]];
-        if (angles_[e] < kConcave || chosen[r] == chosen[s]) continue;
+        if (angles_[e] < kPadTuning.concave || chosen[r] == chosen[s]) continue;
         chosen[r] = chosen[s] = 1;
         grown = true;
       }
@@ -236,8 +226,7 @@ class Chooser {
 
   // Rates a pillow round the hexes under the band; where it cannot be opened it takes in more of the region.
   void consider_band(std::vector<int> band, Choice& best) const {
-    constexpr int kRepairs = 5;
-    for (int attempt = 0; attempt < kRepairs; ++attempt) {
+    for (int attempt = 0; attempt < kPadTuning.band_repairs; ++attempt) {
       SheetCut cut{std::vector<char>(mesh_.hexes.size(), 0), std::vector<char>(association_.quads.size(), 0)};
       for (int q : band) cut.surface[q] = 1;
       for (int q : band) {
@@ -254,7 +243,7 @@ class Chooser {
       const TrialResult result = try_sheet(whole_, cut);
       if (result.obstacles.empty()) {
         const int quads = static_cast<int>(std::count(cut.surface.begin(), cut.surface.end(), 1));
-        const double gain = result.gain - kSmallPrice * quads;
+        const double gain = result.gain - kPadTuning.small_price * quads;
         if (gain > best.gain) best = {std::move(cut), gain, quads};
         return;
       }
@@ -311,7 +300,7 @@ bool extend_cut(const HexMesh& mesh, const HexTopology& topology, const std::vec
   const auto is_cut = [&](int side) { return inner[side] || (topology.mate[side] >= 0 && inner[topology.mate[side]]); };
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const auto [first, second] = edges[e].quads;
-    if (angles[e] < kConcave || region[first] == region[second] || edges[e].hexes < 2) continue;
+    if (angles[e] < kPadTuning.concave || region[first] == region[second] || edges[e].hexes < 2) continue;
     const Fan fan = walk_round(mesh, topology, topology.quad_side[region[first] ? first : second], edges[e].a, edges[e].b);
     int best = 0;
     double least = std::numeric_limits<double>::infinity();

@@ -4,13 +4,11 @@
 #include <numbers>
 
 #include "core/hexahedron.h"
+#include "pad/tuning.h"
 
 namespace polycube {
 
 namespace {
-
-constexpr double kInnerWeight = 0.3;  // of edges inside, which have room to give way
-constexpr double kHexPrice = 0.002;
 
 // A part of the mesh: all hexes that touch the nodes of a cut.
 struct Part {
@@ -107,7 +105,7 @@ double total_cost(const CadModel& model, const HexMesh& mesh, const Association&
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t j = i;
     while (j < edges.size() && edges[j] == edges[i]) ++j;
-    if (find_edge(boundary, edges[i][0], edges[i][1]) < 0) cost += kInnerWeight * angle_cost(static_cast<int>(j - i), 2 * std::numbers::pi);
+    if (find_edge(boundary, edges[i][0], edges[i][1]) < 0) cost += kPadTuning.inner_weight * angle_cost(static_cast<int>(j - i), 2 * std::numbers::pi);
     i = j;
   }
   for (const Sector& s : find_sectors(model, mesh, association, near)) cost += angle_cost(s.quads, s.angle);
@@ -163,7 +161,7 @@ TrialResult try_sheet(const TrialMesh& whole, const SheetCut& cut) {
   result.added = opened.added;
   part.near.resize(opened.mesh.points.size(), 1);
   const HexTopology after = build_topology(opened.mesh, opened.association.quads);
-  result.gain -= total_cost(whole.model, opened.mesh, opened.association, after, part.near) + kHexPrice * result.added;
+  result.gain -= total_cost(whole.model, opened.mesh, opened.association, after, part.near) + kPadTuning.hex_price * result.added;
   return result;
 }
 

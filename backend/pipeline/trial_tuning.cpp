@@ -14,6 +14,7 @@
 #include "fem/tuning.h"
 #include "hex/tuning.h"
 #include "label/tuning.h"
+#include "pad/tuning.h"
 #include "pipeline/tuning.h"
 #include "quantize/tuning.h"
 #include "tet/tuning.h"
@@ -56,6 +57,7 @@ std::vector<Entry> all_entries() {
   add_stage<BlocksTuning>(entries, "blocks");
   add_stage<QuantizeTuning>(entries, "quantize");
   add_stage<HexTuning>(entries, "hex");
+  add_stage<PadTuning>(entries, "pad");
   add_stage<FemTuning>(entries, "fem");
   add_stage<PipelineTuning>(entries, "pipeline");
   return entries;

@@ -8,6 +8,7 @@
 #include "core/hexahedron.h"
 #include "core/parallel.h"
 #include "core/quality.h"
+#include "fit/tuning.h"
 
 namespace polycube {
 
@@ -15,13 +16,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kChunk = 512;
-constexpr double kShort = 0.15;                      // an edge this share of its wanted length is as bad as a cell is good
-constexpr double kWideTurn = std::numbers::pi / 12;  // a mesh edge along which its curve turns by this is as bad as a cell is good
-constexpr double kTurnWeight = 4;                    // cells share a mesh edge
-constexpr int kFloorPower = 16;                      // even
-constexpr int kMemory = 8;                           // pairs L-BFGS remembers
-constexpr double kFarTurn = 0.7;                     // radians: an entity that turns by this under a node is no longer known to second order
-constexpr double kLongestStep = 0.4;                 // of the wanted edge length, a node and iteration
 
 // Axis of each of the three edges of a corner, in the order of kCornerNeighbours.
 constexpr std::array<std::array<int, 3>, 8> corner_axes() {
@@ -97,14 +91,14 @@ double corner_energies(const Energy& energy, const std::array<Vectors<N>, 3>& j,
     value += right.sum();
     Values<N> steep = energy.power * right;
     if (energy.floor > 0) {
-      const Values<N> near = energy.right / (energy.floor * energy.floor) * raised<N>(energy.floor * energy.floor * skewness, kFloorPower / 2);
+      const Values<N> near = energy.right / (energy.floor * energy.floor) * raised<N>(energy.floor * energy.floor * skewness, kFitTuning.half_floor_power);
       value += near.sum();
-      steep += kFloorPower * near;
+      steep += 2 * kFitTuning.half_floor_power * near;
     }
     by_det -= steep * inverse * slope;
     for (int k = 0; k < 3; ++k) {
       const Values<N> per_length = squared[k].max(1e-300).inverse();
-      const Values<N> shortness = energy.right * raised<N>(kShort * kShort * per_length, half);
+      const Values<N> shortness = energy.right * raised<N>(kFitTuning.short_edge * kFitTuning.short_edge * per_length, half);
       value += shortness.sum();
       by_edge[k] += (steep - energy.power * shortness) * per_length;
     }
@@ -149,7 +143,7 @@ class History {
     double scaled = 0;
     for (std::size_t i = 0; i < change.size(); ++i) scaled += sizes_[i] * sizes_[i] * change[i].squaredNorm();
     if (!(curvature > 1e-12 * scaled) || !(scaled > 0)) return;
-    if (pairs_.size() == kMemory) pairs_.erase(pairs_.begin());
+    if (pairs_.size() == kFitTuning.memory) pairs_.erase(pairs_.begin());
     pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
     scale_ = curvature / scaled;
   }
@@ -280,8 +274,8 @@ double Descent::evaluate(const Energy& energy, const std::vector<Vec3>& targets,
     double angle = turn.angle;
     for (int k = 0; k < 2; ++k) angle += turn.slopes[k].dot(points[turn.nodes[k]] - turn.places[k]);
     if (angle <= 0) continue;
-    double slope = kTurnWeight / kWideTurn;
-    for (int k = 1; k < power; ++k) slope *= angle / kWideTurn;
+    double slope = kFitTuning.turn_weight / kFitTuning.wide_turn;
+    for (int k = 1; k < power; ++k) slope *= angle / kFitTuning.wide_turn;
     total += slope * angle;
     for (int k = 0; k < 2; ++k) {
       if (slots[k] >= 0) gradient[slots[k]] += power * slope * turn.slopes[k];
@@ -313,7 +307,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     std::vector<Vec3> direction = history.direction(gradient);
     const auto limit = [&] {
       for (std::size_t i = 0; i < count; ++i) {
-        const double length = direction[i].norm(), longest = kLongestStep * sizes[i];
+        const double length = direction[i].norm(), longest = kFitTuning.longest_step * sizes[i];
         if (length > longest) direction[i] *= longest / length;
       }
     };
@@ -356,7 +350,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
     result.energy = value;
     if (gain < 1e-6 * value) break;
     bool far = false;
-    for (std::size_t i = 0; i < count && !far; ++i) far = entities_.turned(region.nodes[i], steps[i]) > kFarTurn;
+    for (std::size_t i = 0; i < count && !far; ++i) far = entities_.turned(region.nodes[i], steps[i]) > kFitTuning.far_turn;
     if (far) break;
   }
   for (int h : region.hexes) slot_[h] = -1;

@@ -12,22 +12,15 @@
 #include "core/quality.h"
 #include "fit/energy.h"
 #include "fit/start.h"
+#include "fit/tuning.h"
 
 namespace polycube {
 
 namespace {
 
-constexpr int kFew = 4;            // inverted cells worth another start: more of them have a cause that none mends
-constexpr double kDoubt = 0.01;    // of a prospect: the candidate that its maker puts first stays there for less
-constexpr int kSizeSmoothing = 4;  // rounds of averaging the wanted edge lengths with the neighbours'
-
-constexpr double kFlat = 1e-3;     // scaled Jacobian: nodes of a face that projection took onto its border leave cells that are positive by rounding alone
-constexpr double kPoor = 0.3;      // scaled Jacobian up to which a cell may be inverted inside though its corners are not
-constexpr double kTwisted = 0.85;  // cosine: so may any cell whose edges along one axis are further from their mean than this
-
 // Whether the cell has to be looked at inside: good corners vouch for it only where its opposite edges go the same way.
 bool suspect(const std::vector<Vec3>& points, const Hex& hex, double scaled_jacobian) {
-  if (scaled_jacobian <= kPoor) return true;
+  if (scaled_jacobian <= kFitTuning.poor) return true;
   for (int axis = 0; axis < 3; ++axis) {
     std::array<Vec3, 4> along;
     Vec3 sum = Vec3::Zero();
@@ -38,7 +31,7 @@ bool suspect(const std::vector<Vec3>& points, const Hex& hex, double scaled_jaco
       along[count] = step * (points[hex[d]] - points[hex[c]]).normalized();
       sum += along[count++];
     }
-    const double least = kTwisted * sum.norm();
+    const double least = kFitTuning.twisted * sum.norm();
     if (std::any_of(along.begin(), along.end(), [&](const Vec3& e) { return e.dot(sum) < least; })) return true;
   }
   return false;
@@ -64,8 +57,6 @@ struct Score {
 
 // Whether the cell's worst corner lies between two CAD edges at a narrow angle, and is as good as that lets it be.
 bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vector<Segment>& on_edges) {
-  constexpr double kNarrow = 0.5;  // cosine: from 60 degrees on other cells would do better
-  constexpr double kNearly = 0.95;
   int worst = 0;
   for (int c = 1; c < 8; ++c) {
     if (corner_scaled_jacobian(points, hex, c) < corner_scaled_jacobian(points, hex, worst)) worst = c;
@@ -79,7 +70,7 @@ bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vec
     const int l = (k + 1) % 3;
     if (!on_edge(k) || !on_edge(l)) continue;
     const Vec3 a = (points[hex[next[k]]] - points[hex[worst]]).normalized(), b = (points[hex[next[l]]] - points[hex[worst]]).normalized();
-    if (a.dot(b) > kNarrow && value >= kNearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)))) return true;
+    if (a.dot(b) > kFitTuning.narrow && value >= kFitTuning.nearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)))) return true;
   }
   return false;
 }
@@ -116,30 +107,27 @@ class Fitting {
 
   // The first rounds, after which it is to be seen what will come of it.
   void begin() {
-    constexpr int kRounds = 8;
     place_on_cad(model_, mesh_, association_, chains_, entities_, monitor_);
     best_ = mesh_.points;
     score_ = rate();
     if (options_.keep_sizes) kept_lengths_ = target_lengths(mesh_, graph_, 0);
     monitor_.progress("fit", 0.15);
-    untangle(whole_, 20, start_, kRounds);
+    untangle(whole_, 20, start_, kFitTuning.first_rounds);
   }
 
   // How it would go on: few inverted cells mended, one descent towards right angles. Less is more promising. Leaves things as they are.
   Prospect prospect() {
-    constexpr int kRounds = 8;
-    constexpr double kWorst = 0.3;
     const std::vector<Vec3> points = mesh_.points, best = best_;
     const Score score = score_;
     restore();
-    if (score_.inverted > 0 && score_.inverted <= kFew) {
+    if (score_.inverted > 0 && score_.inverted <= kFitTuning.few) {
       Untangling mending;
-      untangle(around(kFlat, 2), 50, mending, kRounds);
+      untangle(around(kFitTuning.flat, 2), 50, mending, kFitTuning.prospect_rounds);
       restore();
     }
     if (score_.worst > 0) square_up(whole_, 2, 20);
     // The worst cell will be worked on, the mean hardly changes any more.
-    const Prospect result{score_.inverted, -score_.mean - kWorst * score_.worst};
+    const Prospect result{score_.inverted, -score_.mean - kFitTuning.prospect_worst * score_.worst};
     best_ = best;
     score_ = score;
     mesh_.points = points;
@@ -151,18 +139,18 @@ class Fitting {
     untangle(whole_, 20, start_, options_.max_rounds);
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
-      untangle(around(kFlat, layers), 50);
+      untangle(around(kFitTuning.flat, layers), 50);
     }
     // Nodes of faces may want to slide out over the border.
     with_skin_ = true;
     for (int layers = 2; score_.inverted > 0 && layers <= 6; layers += 2) {
       restore();
-      untangle(around(kFlat, layers), 50);
+      untangle(around(kFitTuning.flat, layers), 50);
     }
     // A few cells that resist get another start: their surroundings smoothed flat.
-    for (int layers = 2; score_.inverted > 0 && score_.inverted <= kFew && layers <= 6; layers += 2) {
+    for (int layers = 2; score_.inverted > 0 && score_.inverted <= kFitTuning.few && layers <= 6; layers += 2) {
       restore();
-      const CellRegion region = around(kFlat, layers);
+      const CellRegion region = around(kFitTuning.flat, layers);
       smooth(region);
       untangle(region, 50);
     }
@@ -184,7 +172,7 @@ class Fitting {
   }
 
  private:
-  std::vector<Vec3> wanted_lengths() const { return options_.keep_sizes ? kept_lengths_ : target_lengths(mesh_, graph_, kSizeSmoothing); }
+  std::vector<Vec3> wanted_lengths() const { return options_.keep_sizes ? kept_lengths_ : target_lengths(mesh_, graph_, kFitTuning.size_smoothing); }
 
   std::vector<int> movable(const std::vector<int>& hexes) const {
     std::vector<int> nodes;
@@ -199,7 +187,7 @@ class Fitting {
     Score score{.worst = 1};
     for (const Hex& hex : mesh_.hexes) {
       const double value = scaled_jacobian(mesh_.points, hex);
-      score.inverted += value <= kFlat;
+      score.inverted += value <= kFitTuning.flat;
       score.hollow += hollow(mesh_.points, hex, value);
       score.worst = std::min(score.worst, value);
       score.mean += value;
@@ -266,10 +254,9 @@ class Fitting {
   // Takes the nodes of patches and the inside to the mean of their neighbours, those of patches to the mean of their neighbours on the
   // boundary.
   void smooth(const CellRegion& region) {
-    constexpr int kRounds = 10;
     std::vector<int> nodes = region.nodes;
     std::erase_if(nodes, [&](int v) { return entities_.dimension(v) < 2; });
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kFitTuning.smooth_rounds; ++round) {
       monitor_.check();
       std::vector<Vec3> means;
       for (int v : nodes) {
@@ -335,13 +322,10 @@ class Fitting {
 
   // Goes on from `state` up to so many rounds in all.
   void untangle(const CellRegion& region, int iterations, Untangling& state, int max_rounds) {
-    constexpr int kPatience = 6;
-    constexpr double kConverged = 5e-3;  // gain of a round
-    constexpr int kRare = 1000;          // inverted cells as rare are left to what works on their surroundings alone
     const int cells = static_cast<int>(mesh_.hexes.size());
     const bool is_whole = region.hexes.size() == mesh_.hexes.size();
     auto& [energy, deepest, round, idle, done] = state;
-    for (; !done && round < max_rounds && idle < kPatience; ++round, ++idle) {
+    for (; !done && round < max_rounds && idle < kFitTuning.patience; ++round, ++idle) {
       const auto targets = wanted_lengths();
       const std::vector<SkinCorner> corners = with_skin_ ? skin(targets, region) : std::vector<SkinCorner>{};
       const double least = std::min(descent_.min_determinant(targets, region, corners), 0.0);
@@ -355,7 +339,8 @@ class Fitting {
       if (improved || reached > deepest + 0.01 * std::abs(deepest)) idle = 0;
       deepest = std::max(deepest, reached);
       const double gain = 1 - result.energy / result.start_energy;
-      done = gain < kConverged && (reached > 0 || (is_whole && score_.inverted > 0 && score_.inverted <= std::max(kFew, cells / kRare)));
+      done = gain < kFitTuning.converged &&
+             (reached > 0 || (is_whole && score_.inverted > 0 && score_.inverted <= std::max(kFitTuning.few, cells / kFitTuning.rare)));
       if (done) break;
       const double rate_of_fall = std::max(gain, 0.1);
       const double chi = (reached + std::sqrt(energy.eps * energy.eps + reached * reached)) / 2;
@@ -408,25 +393,22 @@ class Fitting {
 
   // The worst cells with their surroundings, by higher and higher powers: each as long as it brings something.
   void raise_worst() {
-    constexpr int kStages = 4, kHighest = 2;
-    constexpr double kProgress = 0.005;
-    for (int round = 0, stage = 0; round < options_.max_rounds && stage < kStages && score_.worst < goal(); ++round) {
+    for (int round = 0, stage = 0; round < options_.max_rounds && stage < kFitTuning.raise_stages && score_.worst < goal(); ++round) {
       const double before = score_.worst;
-      square_up(around(std::min(goal(), before + 0.15), 2 + stage), 4 << std::min(stage, kHighest), 60);
-      if (score_.worst <= before + kProgress) ++stage;
+      square_up(around(std::min(goal(), before + 0.15), 2 + stage), 4 << std::min(stage, kFitTuning.raise_highest), 60);
+      if (score_.worst <= before + kFitTuning.raise_progress) ++stage;
     }
   }
 
   // Raising the worst cells bends those round them: the whole mesh once more, with the worst held nearly where they are. The floor rises
   // with them, and where it did not hold them.
   void polish() {
-    constexpr double kHeld = 0.98, kHigher = 1.1, kHighest = 1.5;
-    held_ = kHeld * score_.worst;
+    held_ = kFitTuning.held * score_.worst;
     double gain = 1, floor = 1.2;
     for (int round = 0; round < 5 && gain > 1e-3; ++round) {
       if (square_up(whole_, 2, 40, &gain, floor * score_.worst)) continue;
-      floor *= kHigher;
-      if (floor > kHighest) break;
+      floor *= kFitTuning.higher;
+      if (floor > kFitTuning.highest) break;
     }
   }
 
@@ -509,7 +491,7 @@ Begun begin_all(const CadModel& model, const std::vector<FitCandidate>& candidat
   std::vector<Prospect> prospects;
   for (std::size_t i = 0; i < fittings.size(); ++i) {
     prospects.push_back(fittings[i]->prospect());
-    prospects[i].second += kDoubt * static_cast<double>(std::min<std::size_t>(i, 1));
+    prospects[i].second += kFitTuning.doubt * static_cast<double>(std::min<std::size_t>(i, 1));
   }
   std::stable_sort(result.order.begin(), result.order.end(), [&](std::size_t a, std::size_t b) { return prospects[a] < prospects[b]; });
   return result;

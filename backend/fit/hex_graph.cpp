@@ -3,6 +3,7 @@
 
 #include "core/hexahedron.h"
 #include "fit/energy.h"
+#include "fit/tuning.h"
 
 namespace polycube {
 
@@ -76,13 +77,12 @@ HexGraph build_hex_graph(const HexMesh& mesh) {
 
 std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int smoothing_steps) {
   const int hexes = static_cast<int>(mesh.hexes.size());
-  constexpr double kWidestAspect = 8;
   std::vector<Vec3> lengths(hexes), smoothed(hexes);
   for (int h = 0; h < hexes; ++h) {
     Vec3& l = lengths[h];
     l.setZero();
     for (const auto& [c, d] : kHexEdges) l[edge_axis(c, d)] += (mesh.points[mesh.hexes[h][c]] - mesh.points[mesh.hexes[h][d]]).norm() / 4;
-    l = l.cwiseMax(l.maxCoeff() / kWidestAspect);
+    l = l.cwiseMax(l.maxCoeff() / kFitTuning.widest_aspect);
   }
   for (int step = 0; step < smoothing_steps; ++step) {
     for (int h = 0; h < hexes; ++h) {

@@ -7,24 +7,22 @@
 #include <cmath>
 
 #include "core/hexahedron.h"
+#include "fit/tuning.h"
 
 namespace polycube {
 
 namespace {
 
-// CAD edges that turn by less in all are straight.
-constexpr double kStraight = 0.3;
-
 // Arc length along a CAD edge and the angle its tangent has turned by, from samples.
 class ArcLength {
  public:
   ArcLength(const CadModel& model, int edge) : range_(model.edge_range(edge)) {
-    const auto points = model.edge_samples(edge, kSamples);
-    lengths_.assign(kSamples, 0);
-    for (int i = 1; i < kSamples; ++i) lengths_[i] = lengths_[i - 1] + (points[i] - points[i - 1]).norm();
-    turned_.assign(kSamples, 0);
+    const auto points = model.edge_samples(edge, kFitTuning.samples);
+    lengths_.assign(kFitTuning.samples, 0);
+    for (int i = 1; i < kFitTuning.samples; ++i) lengths_[i] = lengths_[i - 1] + (points[i] - points[i - 1]).norm();
+    turned_.assign(kFitTuning.samples, 0);
     Vec3 before = tangent(model, edge, 0);
-    for (int i = 1; i < kSamples; ++i) {
+    for (int i = 1; i < kFitTuning.samples; ++i) {
       const Vec3 now = tangent(model, edge, i);
       turned_[i] = turned_[i - 1] + std::atan2(before.cross(now).norm(), before.dot(now));
       before = now;
@@ -36,7 +34,7 @@ class ArcLength {
   double turned(double t) const { return at(turned_, t); }
   // Radians per mm.
   double curvature(double t) const {
-    const int i = std::min(static_cast<int>(place(t)), kSamples - 2);
+    const int i = std::min(static_cast<int>(place(t)), kFitTuning.samples - 2);
     const double length = lengths_[i + 1] - lengths_[i];
     return length > 0 ? (turned_[i + 1] - turned_[i]) / length : 0;
   }
@@ -45,16 +43,17 @@ class ArcLength {
     const int i = static_cast<int>(it - lengths_.begin()) - 1;
     const double span = lengths_[i + 1] - lengths_[i];
     const double x = i + (span > 0 ? (length - lengths_[i]) / span : 0);
-    return range_[0] + x / (kSamples - 1) * (range_[1] - range_[0]);
+    return range_[0] + x / (kFitTuning.samples - 1) * (range_[1] - range_[0]);
   }
 
  private:
-  static constexpr int kSamples = 257;
-  Vec3 tangent(const CadModel& model, int edge, int i) const { return model.edge_tangent(edge, range_[0] + i * (range_[1] - range_[0]) / (kSamples - 1)); }
-  double place(double t) const { return std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kSamples - 1); }
+  Vec3 tangent(const CadModel& model, int edge, int i) const {
+    return model.edge_tangent(edge, range_[0] + i * (range_[1] - range_[0]) / (kFitTuning.samples - 1));
+  }
+  double place(double t) const { return std::clamp((t - range_[0]) / (range_[1] - range_[0]), 0.0, 1.0) * (kFitTuning.samples - 1); }
   double at(const std::vector<double>& values, double t) const {
     const double x = place(t);
-    const int i = std::min(static_cast<int>(x), kSamples - 2);
+    const int i = std::min(static_cast<int>(x), kFitTuning.samples - 2);
     return values[i] + (x - i) * (values[i + 1] - values[i]);
   }
   std::array<double, 2> range_;
@@ -246,7 +245,7 @@ std::vector<Turn> Chains::turns(const std::vector<Vec3>& points, const Entities&
     const auto& nodes = chain->nodes.nodes;
     const ArcLength& arc = chain->arc;
     const bool cut = entities.dimension(nodes.front()) != 0 && nodes.front() != nodes.back();
-    if (arc.total_turn() < kStraight || cut || nodes.size() < 3) continue;
+    if (arc.total_turn() < kFitTuning.straight || cut || nodes.size() < 3) continue;
     const auto [from, to] = model_.edge_range(chain->nodes.edge);
     std::vector<double> t, lengths;
     for (int v : nodes) t.push_back(entities.dimension(v) == 1 ? entities.edge_parameter(v) : from);

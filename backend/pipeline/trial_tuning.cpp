@@ -12,6 +12,7 @@
 #include "core/tuning.h"
 #include "deform/tuning.h"
 #include "fem/tuning.h"
+#include "fit/tuning.h"
 #include "hex/tuning.h"
 #include "label/tuning.h"
 #include "pad/tuning.h"
@@ -58,6 +59,7 @@ std::vector<Entry> all_entries() {
   add_stage<QuantizeTuning>(entries, "quantize");
   add_stage<HexTuning>(entries, "hex");
   add_stage<PadTuning>(entries, "pad");
+  add_stage<FitTuning>(entries, "fit");
   add_stage<FemTuning>(entries, "fem");
   add_stage<PipelineTuning>(entries, "pipeline");
   return entries;

@@ -1,0 +1,82 @@
+// What the stage fit chose; what the words mean: core/tuned.h.
+#pragma once
+
+#include <cstddef>
+#include <numbers>
+
+#include "core/tuned.h"
+
+namespace polycube {
+
+struct FitTuning {
+  /// Inverted cells worth another start: more of them have a cause that none mends. Guess.
+  int few = 4;
+  /// Of a prospect: for less the candidate that its maker puts first stays there. Guess.
+  double doubt = 0.01;
+  /// Rounds of averaging the wanted edge lengths with the neighbours'. Guess.
+  int size_smoothing = 4;
+  /// Scaled Jacobian up to which a cell counts as inverted: nodes of a face that projection took onto its border leave cells positive by rounding alone. Guess.
+  double flat = 1e-3;
+  /// Scaled Jacobian up to which a cell may be inverted inside though its corners are not. Guess.
+  double poor = 0.3;
+  /// Cosine: so may any cell whose edges along one axis are further from their mean than this. Guess.
+  double twisted = 0.85;
+  /// Cosine of the angle of CAD edges that hold a corner: from 60 degrees on other cells would do better. Guess.
+  double narrow = 0.5;
+  /// Of what such an angle allows: a corner as good as this is as good as can be. Guess.
+  double nearly = 0.95;
+  /// First rounds of untangling, after which it is to be seen what will come of it. Guess.
+  int first_rounds = 8;
+  /// Rounds of mending few inverted cells for a prospect. Guess.
+  int prospect_rounds = 8;
+  /// Weight of the worst cell against the mean in a prospect. Guess.
+  double prospect_worst = 0.3;
+  /// Rounds of taking nodes to the mean of their neighbours. Guess.
+  int smooth_rounds = 10;
+  /// Rounds of untangling without a gain after which it ends. Guess.
+  int patience = 6;
+  /// Gain of a round of untangling below which it has converged. Guess.
+  double converged = 5e-3;
+  /// Cells an inverted one: as rare ones are left to what works on their surroundings alone. Guess.
+  int rare = 1000;
+  /// Stages of raising the worst cells, each with more of their surroundings. Guess.
+  int raise_stages = 4;
+  /// Doublings of the power from one stage to the next, at most. Guess.
+  int raise_highest = 2;
+  /// Scaled Jacobian that a round brings at least. Guess.
+  double raise_progress = 0.005;
+  /// Of the worst cell: where it is held while the whole mesh is polished. Guess.
+  double held = 0.98;
+  /// What the floor rises by where it did not hold them. Guess.
+  double higher = 1.1;
+  /// Up to this. Guess.
+  double highest = 1.5;
+  /// Wanted lengths: an edge as short as this is as bad as a cell is good. Guess.
+  double short_edge = 0.15;
+  /// Radians: a mesh edge along which its curve turns by this is as bad as a cell is good. Guess.
+  double wide_turn = std::numbers::pi / 12;
+  /// Weight of such an edge. Theory: cells share a mesh edge.
+  double turn_weight = 4;
+  /// Half the power of the floor, which is even. Guess.
+  int half_floor_power = 8;
+  /// Pairs that L-BFGS remembers. Guess.
+  std::size_t memory = 8;
+  /// Radians: an entity that turns by this under a node is no longer known to second order. Guess.
+  double far_turn = 0.7;
+  /// Wanted lengths that a node goes in one iteration. Guess.
+  double longest_step = 0.4;
+  /// Radians: CAD edges that turn by less in all are straight. Guess.
+  double straight = 0.3;
+  /// Samples of the length along a CAD edge. Guess.
+  int samples = 257;
+  /// Longest to shortest wanted length of a cell. Guess.
+  double widest_aspect = 8;
+
+  POLYCUBE_ENTRIES(few, doubt, size_smoothing, flat, poor, twisted, narrow, nearly, first_rounds, prospect_rounds, prospect_worst, smooth_rounds, patience,
+                   converged, rare, raise_stages, raise_highest, raise_progress, held, higher, highest, short_edge, wide_turn, turn_weight, half_floor_power,
+                   memory, far_turn, longest_step, straight, samples, widest_aspect)
+};
+
+inline constexpr const FitTuning& kFitTuning = tuning_in_force<FitTuning>;
+
+}  // namespace polycube

@@ -16,6 +16,7 @@
 #include "hex/tuning.h"
 #include "label/tuning.h"
 #include "pad/tuning.h"
+#include "pipeline/search/tuning.h"
 #include "pipeline/tuning.h"
 #include "quantize/tuning.h"
 #include "tet/tuning.h"
@@ -62,6 +63,7 @@ std::vector<Entry> all_entries() {
   add_stage<FitTuning>(entries, "fit");
   add_stage<FemTuning>(entries, "fem");
   add_stage<PipelineTuning>(entries, "pipeline");
+  add_stage<SearchTuning>(entries, "search");
   return entries;
 }
 

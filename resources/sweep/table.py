@@ -10,7 +10,7 @@ HEAD = ["part", "result", "judge", "exit", "s", "cpu s", "MB", "hexes", "min SJ"
 ORDER = ["complete", "valid", "refused", "bad input", "out of time", "no answer", "crash", "INVALID"]
 FAULTS = {"crash", "INVALID"}
 SUFFIXES = (".step", ".stp", ".brep", ".brp", ".iges", ".igs", ".fcstd")  # of parts, in small letters
-BAD = 0.2  # scaled Jacobian below which a cell is marked: kGoodScaledJacobian of backend/pipeline/search, a guess
+BAD = 0.2  # scaled Jacobian below which a cell is marked: good_scaled_jacobian of backend/pipeline/search/tuning.h, a guess
 
 
 def read_row(folder, key, judged):

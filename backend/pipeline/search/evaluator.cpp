@@ -24,31 +24,13 @@
 #include "pipeline/integers.h"
 #include "pipeline/local_refinement.h"
 #include "pipeline/search/give_up.h"
+#include "pipeline/search/tuning.h"
 #include "pipeline/shortfalls.h"
 #include "pipeline/vertex_room.h"
 #include "quantize/quantize.h"
 
 namespace polycube {
 namespace {
-
-// Times that edges are given up for one draft, around its inverted cells in widening rings.
-constexpr int kSurrenderRounds = 5, kSurrenderRings = 4;
-// A size above this share of the diagonal may be too coarse for the edges of the part: then the first of these factors on the number of cells
-// along an edge counts with which every CAD edge finds its path.
-constexpr double kCoarse = 1.0 / 25;
-constexpr std::array kFiner{1.25, 1.6, 2.0};
-// Divisions of the grid one after the other at one vertex: for as many CAD edges more than a corner of the grid has.
-constexpr int kRoomRounds = 3;
-// Number of cells: up to this much off it is no other; how far off the one asked for it may be with padding, and how often it is tried to come nearer.
-constexpr double kCountMiss = 0.04, kPaddedMiss = 0.1;
-constexpr int kRecounts = 2;
-// Times that round CAD edges get more cells.
-constexpr int kRoundingRounds = 2;
-// Cells of the whole grid from which bores may be refined locally instead, if they ask for so many times what the grid has without them, and if it takes at
-// most this share of the cells: refined cells are of a scaled Jacobian of .5, those of the grid near to 1.
-constexpr double kManyCells = 3000, kCarried = 3, kLocalShare = 0.5;
-// eta of section 6.2 for the coarsest mesh.
-constexpr double kCoarsest = 1e-6;
 
 /// CAD edges on a grid, and where they lack room.
 struct Routed {
@@ -128,7 +110,7 @@ class Evaluator::Work {
 
   // A mesh that misses an edge is worth more than none.
   Outcome surrendered(Draft draft, Surrender how) {
-    const int rounds = how == Surrender::kEdges ? kSurrenderRounds : kSurrenderRings;
+    const int rounds = how == Surrender::kEdges ? kSearchTuning.surrender_rounds : kSearchTuning.surrender_rings;
     Outcome outcome;
     outcome.failure = Failure{StageFailed("fit", "cells stay inverted, and no CAD edge is left to give up there"), {}};
     for (int round = 0; round < rounds && fits_left_ > 0; ++round) {
@@ -147,7 +129,7 @@ class Evaluator::Work {
   // As the mesh would come to it, with the number of cells that is asked for met likewise.
   int count(const Plan& plan) {
     int cells = 0;
-    for (int round = 0; round <= kRecounts; ++round) {
+    for (int round = 0; round <= kSearchTuning.recounts; ++round) {
       Draft draft;
       const Association association = gridded(plan, options_.divisions, draft);
       std::vector<PaddedMesh> choices =
@@ -157,7 +139,7 @@ class Evaluator::Work {
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
       if (round > 0 && miss(padded) >= miss(cells)) break;
       cells = padded;
-      if (options_.hexes <= 0 || miss(cells) <= kPaddedMiss) break;
+      if (options_.hexes <= 0 || miss(cells) <= kSearchTuning.padded_miss) break;
       grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / padded;
     }
     return cells;
@@ -196,7 +178,7 @@ class Evaluator::Work {
   // Where padding takes the number of cells away from the one asked for, a grid with its share of them.
   void recount(const Plan& plan, Draft& draft) {
     const auto miss = [&](const Draft& d) { return std::abs(static_cast<double>(d.padded.mesh.hexes.size()) / options_.hexes - 1); };
-    for (int round = 0; round < kRecounts && miss(draft) > kPaddedMiss && fits_left_ > 0; ++round) {
+    for (int round = 0; round < kSearchTuning.recounts && miss(draft) > kSearchTuning.padded_miss && fits_left_ > 0; ++round) {
       grid_share_ = static_cast<double>(draft.complex.mesh.hexes.size()) / static_cast<double>(draft.padded.mesh.hexes.size());
       try {
         Draft next = fitted(plan, options_.divisions);
@@ -245,8 +227,8 @@ class Evaluator::Work {
     if (plan.bounded && levels_.empty()) own_.bounded_grids_.push_back(grid_of(draft));
     if (!routes.association.lost_edges.empty()) give_room(draft, routes, divisions);
     Association association = divided(draft, std::move(routes));
-    if (!options_.coarsest && plan.structure.min_bend == 0 && own_.size_ > kCoarse * model_.diagonal()) {
-      for (const double finer : kFiner) {
+    if (!options_.coarsest && plan.structure.min_bend == 0 && own_.size_ > kSearchTuning.coarse * model_.diagonal()) {
+      for (const double finer : kSearchTuning.finer) {
         if (association.lost_edges.empty()) break;
         if (finer <= plan.refine) continue;
         refine(draft, association, finer, divisions);
@@ -263,7 +245,7 @@ class Evaluator::Work {
     const auto missing = [&](const Association& a) { return missing_elements(edges, elements_on_edges(a, model_.edge_count())); };
     const auto sum = [](const std::vector<int>& v) { return std::accumulate(v.begin(), v.end(), 0); };
     std::vector<int> before = missing(association);
-    for (int round = 0; round < kRoundingRounds && sum(before) > 0; ++round) {
+    for (int round = 0; round < kSearchTuning.rounding_rounds && sum(before) > 0; ++round) {
       for (std::size_t i = 0; i < edges.size(); ++i) {
         if (before[i] > 0) more_elements_[edges[i].edge] += before[i];
       }
@@ -327,12 +309,12 @@ class Evaluator::Work {
     draft.quantization = clock_.stage("quantize", [&] {
       Quantization whole = quantized(plan, s, draft.options, roomy, divisions);
       whole_cells_ = refining ? cell_count(s.blocks, whole.value) : 0;
-      if (whole_cells_ <= kManyCells) return whole;
+      if (whole_cells_ <= kSearchTuning.many_cells) return whole;
       const std::vector<RoundEdge> edges = round_edges(model_, effective_per_circle(options_));
       levels_ = levels_round_bores(edges);
       if (levels_.empty()) return whole;
       Quantization fewer = quantized(plan, s, draft.options, roomy, divisions);
-      if (whole_cells_ > kCarried * cell_count(s.blocks, fewer.value)) return fewer;
+      if (whole_cells_ > kSearchTuning.carried * cell_count(s.blocks, fewer.value)) return fewer;
       levels_.clear();
       return whole;
     });
@@ -353,7 +335,7 @@ class Evaluator::Work {
     const RefinePlan plan = bores_of(draft, association);
     if (plan.empty()) return false;
     const auto cells = static_cast<double>(count_refined(draft.complex.mesh, association, plan, 1, monitor_));
-    const bool saves = cells < kLocalShare * whole_cells_;
+    const bool saves = cells < kSearchTuning.local_share * whole_cells_;
     monitor_.log("refine: " + std::to_string(plan.round.size()) + " bores by themselves would take about " + std::to_string(std::lround(cells)) +
                  " cells, the grid of the whole part " + std::to_string(std::lround(whole_cells_)) + (saves ? ": by themselves" : ": by the grid"));
     return saves;
@@ -371,7 +353,7 @@ class Evaluator::Work {
   }
 
   Quantization quantized(const Plan& plan, const Structure& s, const AssociateOptions& association, bool roomy, const Divisions& divisions) const {
-    const double scale = options_.coarsest ? kCoarsest : plan.refine / own_.size_;
+    const double scale = options_.coarsest ? kSearchTuning.coarsest : plan.refine / own_.size_;
     std::vector<DistanceConstraint> room = room_for_vertices(model_, s.tets, s.map, s.blocks, association.edge_chains, association.ignored);
     auto chains = association.edge_chains;
     for (const FeatureEdge& e : s.features.edges) {
@@ -412,7 +394,7 @@ class Evaluator::Work {
   Association divided(Draft& draft, Routed routes) {
     Association association = std::move(routes.association);
     HexComplex roomy = draft.complex;
-    for (int round = 0; round < kRoomRounds && !routes.crowded.empty(); ++round) {
+    for (int round = 0; round < kSearchTuning.room_rounds && !routes.crowded.empty(); ++round) {
       int added = 0;
       for (const CrowdedCorner& c : routes.crowded) added += make_room(roomy.mesh, {roomy.quads, roomy.quad_chart, roomy.quad_triangle}, c);
       if (added == 0) break;
@@ -444,7 +426,7 @@ class Evaluator::Work {
   std::size_t promising(std::vector<PaddedMesh>& choices) {
     const auto [least, most] =
         std::minmax_element(choices.begin(), choices.end(), [](const PaddedMesh& a, const PaddedMesh& b) { return a.mesh.hexes.size() < b.mesh.hexes.size(); });
-    if (static_cast<double>(most->mesh.hexes.size()) <= (1 + kCountMiss) * static_cast<double>(least->mesh.hexes.size())) return 0;
+    if (static_cast<double>(most->mesh.hexes.size()) <= (1 + kSearchTuning.count_miss) * static_cast<double>(least->mesh.hexes.size())) return 0;
     return clock_.stage("fit", [&] { return most_promising(model_, candidates_of(choices), fit_options(), monitor_); });
   }
 

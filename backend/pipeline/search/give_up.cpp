@@ -9,12 +9,10 @@
 #include "core/error.h"
 #include "label/features.h"
 #include "pipeline/gate.h"
+#include "pipeline/search/tuning.h"
 
 namespace polycube {
 namespace {
-
-// CAD edges whose faces meet within 30 degrees of smooth are given up first.
-constexpr double kSmoothBend = std::numbers::pi / 6;
 
 // Of the edges that bend less than `limit` and are not `kept` (per CAD edge; empty for none), those with most nodes of faulty cells.
 bool drop(const CadModel& model, const PaddedMesh& padded, const std::vector<char>& kept, double limit, int count, AssociateOptions& options,
@@ -51,7 +49,8 @@ bool give_up_edges(const CadModel& model, const FaceList& keep_faces, const Padd
   for (const int e : model.edges()) {
     for (int f : model.edge(e).faces) kept[e] |= std::find(keep_faces.begin(), keep_faces.end(), f) != keep_faces.end();
   }
-  return drop(model, padded, kept, kSmoothBend, count, options, monitor) || drop(model, padded, kept, std::numbers::pi, count, options, monitor) ||
+  return drop(model, padded, kept, kSearchTuning.smooth_bend, count, options, monitor) ||
+         drop(model, padded, kept, std::numbers::pi, count, options, monitor) ||
          drop(model, padded, {}, std::numeric_limits<double>::infinity(), count, options, monitor);
 }
 

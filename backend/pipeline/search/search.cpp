@@ -6,16 +6,10 @@
 #include <new>
 #include <tuple>
 
+#include "pipeline/search/tuning.h"
+
 namespace polycube {
 namespace {
-
-// Good enough to stop looking for a better mesh, and half of it after some patience (guess).
-constexpr double kGoodScaledJacobian = 0.2;
-// A worst cell below counts as half a CAD edge.
-constexpr double kPoorScaledJacobian = 0.05;
-// Below it a mesh is worth less than one that has fewer cells through walls and round circles. Measured: i20 .07 with three layers, .26 without; parts that the
-// CAD itself holds down (i22) stay above it.
-constexpr double kSqueezedScaledJacobian = 0.1;
 
 bool is_keeping(const Plan& plan) { return plan.surrender == Surrender::kNothing && !plan.last; }
 
@@ -105,14 +99,14 @@ std::string told(const Outcome& outcome) {
 }  // namespace
 
 bool better(const Score& a, const Score& b) {
-  const auto worth = [](const Score& s) { return std::pair(0.5 * (s.least > kPoorScaledJacobian) - s.lost_edges, s.least); };
+  const auto worth = [](const Score& s) { return std::pair(0.5 * (s.least > kSearchTuning.poor_scaled_jacobian) - s.lost_edges, s.least); };
   return worth(a) > worth(b);
 }
 
-bool good_cells(const Score& score) { return score.least >= kGoodScaledJacobian || score.free_least >= kGoodScaledJacobian; }
+bool good_cells(const Score& score) { return score.least >= kSearchTuning.good_scaled_jacobian || score.free_least >= kSearchTuning.good_scaled_jacobian; }
 
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {
-  const bool patient = fits_done >= budget.patience && score.least >= kGoodScaledJacobian / 2;
+  const bool patient = fits_done >= budget.patience && score.least >= kSearchTuning.good_scaled_jacobian / 2;
   return score.complete() && (patient || good_cells(score));
 }
 
@@ -144,7 +138,7 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done, b
     queue.back().may_wait = false;
   }
   const bool poor = std::none_of(done.begin(), done.end(), [](const Attempt& a) {
-    return a.outcome.score && a.outcome.score->complete() && a.outcome.score->least >= kSqueezedScaledJacobian;
+    return a.outcome.score && a.outcome.score->complete() && a.outcome.score->least >= kSearchTuning.squeezed_scaled_jacobian;
   });
   while (at < queue.size() && (without_tets(done, queue[at]) || (queue[at].for_poor && !poor))) ++at;
   if (hurry && !mesh) {

@@ -3,9 +3,12 @@
 import os
 import re
 import subprocess
+import sys
 import unittest
 
 REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(REPO, "tests", "benchmarks"))
+import tuning  # noqa: E402
 BACKEND = os.path.join(REPO, "backend")
 # What no stage may include but itself.
 TOP = ["job", "cli", "python"]
@@ -211,6 +214,67 @@ class Files(unittest.TestCase):
         for stage in Stages.uses:
             for path in sources(stage):
                 self.assertIsNone(pattern.search(read(path)), path)
+
+
+class Tuning(unittest.TestCase):
+    """What somebody chose stands in the stages' tuning.h, with a reason (backend/README.md)."""
+
+    # Constants of a number elsewhere that nobody can choose otherwise: facts, kinds and tables, formats, limits of what is taken and told, shares of work.
+    OTHERS = {
+        "core": {"kSquare", "kSteepest", "kMostHexes", "kMostLevels", "kWorstCells", "kInnerPoints"},
+        "cad": {"kMostDeflated", "kLargest", "kSmallest", "kTail", "kHead", "kFaults"},
+        "tet": {"kMagic", "kEnd", "kCannotWrite", "kNamed"},
+        "label": {"kDegree", "kForbidden", "kLongest"},
+        "deform": {"kChunk"},
+        "quantize": {"kWeightSum", "kUnlimited", "kNone", "kLayers", "kStructure"},
+        "pad": {"kIgnored", "kWanted", "kOutside", "kInside", "kUnknown"},
+        "refine": {"kFar"},  # a place in a grid of thirds
+        "fit": {"kChunk"},
+        "fem": {"kChunk", "kSolverPoints", "kPoints", "kPerLine", "kWidth", "kNodes", "kElements", "kQuad", "kHexahedron", "kQuadraticQuad", "kQuadraticHexahedron"},
+        "pipeline": {"kTold", "kNamed", "kCountMiss", "kOnFace", "kMost"},
+        "job": {"kAlignment"},
+    }
+
+    def test_every_entry_has_a_mark_and_is_listed(self):
+        names = []
+        self.assertGreater(len(tuning.headers()), 11)
+        for path in tuning.headers():
+            entries, listed = tuning.read_header(path)
+            self.assertEqual([entry.name.split(".")[1] for entry in entries], listed, path)
+            for entry in entries:
+                self.assertIsNotNone(entry.mark, "{} in {}: one of Theory: ..., Measured: ..., Guess. at the end".format(entry.name, entry.header))
+                if entry.mark == "theory" or entry.mark == "measured":
+                    self.assertGreater(len(entry.meaning.split(entry.mark.capitalize() + ": ")[1]), 15, entry.name)
+            names += [entry.name for entry in entries]
+        self.assertGreater(len(names), 200)
+        self.assertEqual(len(names), len(set(names)))
+
+    def test_entries_can_be_set(self):
+        """pipeline/trial_tuning.cpp knows every header."""
+        text = read(os.path.join(BACKEND, "pipeline", "trial_tuning.cpp"))
+        for path in tuning.headers():
+            self.assertIn(os.path.relpath(path, BACKEND), includes(os.path.join(BACKEND, "pipeline", "trial_tuning.cpp")))
+            self.assertIn("add_stage<" + re.search(r"struct (\w+Tuning)", read(path)).group(1) + ">", text)
+
+    def test_entries_are_read(self):
+        for path in tuning.headers():
+            stage = os.path.relpath(os.path.dirname(path), BACKEND).split(os.sep)[0]
+            name = re.search(r"& (k\w+Tuning) =", read(path)).group(1)
+            text = "".join(read(other) for other in sources(stage))
+            for entry in tuning.read_header(path)[1]:
+                self.assertRegex(text, r"\b{}\.{}\b".format(name, entry), path)
+
+    def test_no_number_is_chosen_elsewhere(self):
+        kinds = r"(?:double|float|int|long|std::size_t|std::u?int\d+_t|std::streamoff|std::streamsize|std::ptrdiff_t|Eigen::Index|FlowInt|zip_uint64_t|char)"
+        constant = re.compile(r"^\s*(?:inline |static )*const(?:expr)? {} (k[A-Z]\w*) ?[={{](.*);".format(kinds), re.M)
+        fact = re.compile(r" ?std::(numbers::pi|numeric_limits<\w+>::\w+\(\))")
+        for stage in Stages.uses:
+            found = set()
+            for path in sources(stage):
+                if os.path.basename(path) != "tuning.h":
+                    for first, rest in constant.findall(read(path)):
+                        found |= set() if fact.fullmatch(rest) else {first, *re.findall(r", (k[A-Z]\w*) = ", rest)}
+            self.assertEqual(found, self.OTHERS.get(stage, set()), "a number that was chosen belongs into {}/tuning.h, with its reason".format(stage))
 
 
 if __name__ == "__main__":

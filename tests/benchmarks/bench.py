@@ -2,6 +2,8 @@
 
 bench.py PROGRAM --labels [PART...]: seconds of labelling and of the map on one thread, on tet meshes from the coarsest to the finest that the pipeline uses, and the
 exponents of their growth with the number of tets.
+
+bench.py PROGRAM --tuning FOLDER -o PAGE.md [...]: which of the values in the stages' tuning.h matter (tuning.py).
 """
 
 import json
@@ -10,6 +12,8 @@ import os
 import subprocess
 import sys
 import tempfile
+
+import tuning
 
 REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SIZES = (1 / 20, 1 / 40)  # of the bounding-box diagonal
@@ -74,6 +78,9 @@ def growth(program, part, diagonal, folder):
 
 def main():
     program, parts = sys.argv[1], sys.argv[2:]
+    if parts[:1] == ["--tuning"]:
+        tuning.main([program, *parts[1:]])
+        return
     labels_only = "--labels" in parts
     parts = [part for part in parts if part != "--labels"]
     freecad, part_module = load_freecad()

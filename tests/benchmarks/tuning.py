@@ -1,0 +1,237 @@
+"""Which of the values in the stages' tuning.h matter: tuning.py PROGRAM PARTS -o PAGE.md [--entries NAME,...] [--list].
+
+Meshes the parts of a folder (tests/corpus/generate.py makes some) with each entry lower and higher than it is, and compares with the mesh that comes without. The page has a line an entry: on how
+many parts the mesh is another one, the largest change, and a verdict that says whether it rests on one family of parts. A verdict is about these parts: an entry that guards against what none of
+them has changes nothing here.
+
+Entries that are changed together and leave a mesh as it is, bit for bit, are taken to leave it so one by one; so halves of a group are tried only where the group changes something.
+What was meshed stands in PAGE.md.trials, so that a run can be stopped and gone on with; trials by another program are not counted.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import glob
+import hashlib
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+REPO = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+MARKS = ("Theory", "Measured", "Guess")
+LOWER, HIGHER = 0.7, 1.4
+# What counts: less than this is another mesh, not a better or a worse one (guess).
+CHANGES = {"cells": 0.05, "min SJ": 0.02, "mean SJ": 0.01}
+GROUP = 16  # entries that are changed together at first (guess: about one in ten changes a simple part)
+LIMIT = 300  # seconds that a mesh may take, which the simple parts meant here need a hundredth of
+
+Entry = collections.namedtuple("Entry", "name value mark meaning header")
+
+
+def headers():
+    return sorted(glob.glob(os.path.join(REPO, "backend", "*", "tuning.h")) + glob.glob(os.path.join(REPO, "backend", "*", "*", "tuning.h")))
+
+
+def read_header(path):
+    """([Entry of a member of the header's struct], names that it lists as its entries)"""
+    stage, found, comment = os.path.basename(os.path.dirname(path)), [], []
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    body = re.search(r"^struct \w+Tuning \{\n(.*?)^\};", text, re.M | re.S).group(1)
+    for line in body.split("POLYCUBE_ENTRIES")[0].splitlines():
+        member = re.match(r"  [\w:<>, ]+?\b(\w+)(?: = (.*)|\{(.*)\});", line)
+        if line.startswith("  ///"):
+            comment.append(line[5:].strip())
+        elif member:
+            meaning = " ".join(comment)
+            marks = re.findall(r"(?:^|(?<=\. ))(Theory(?=: )|Measured(?=: )|Guess(?=\.$))", meaning)
+            found.append(Entry(stage + "." + member.group(1), member.group(2) or member.group(3), marks[0].lower() if len(marks) == 1 else None, meaning,
+                               os.path.relpath(path, REPO)))
+            comment = []
+    listed = re.search(r"POLYCUBE_ENTRIES\(([^)]*)\)", body).group(1)
+    return found, re.split(r",\s*", listed.strip())
+
+
+def other_values(value):
+    """Lower and higher ones to try; whole numbers stay so, and above 0: none is a switch."""
+    if isinstance(value, float):
+        return value * LOWER, value * HIGHER
+    return tuple(other for other in (min(value - 1, math.floor(value * LOWER)), max(value + 1, math.ceil(value * HIGHER))) if other > 0)
+
+
+def digest(path):
+    with open(path, "rb") as file:
+        return hashlib.sha256(file.read()).hexdigest()
+
+
+def mesh(program, part, tuning, options):
+    """What comes out: {"result": "complete", "valid" or why there is no mesh, ...}"""
+    with tempfile.TemporaryDirectory() as folder:
+        output, report = os.path.join(folder, "a.inp"), os.path.join(folder, "report.json")
+        command = [program, "mesh", part, "-o", output, "--report", report, *options]
+        try:
+            run = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, env={**os.environ, "POLYCUBE_TUNING": tuning})
+        except subprocess.TimeoutExpired:
+            return {"result": "no answer"}
+        if run.returncode == 2:
+            return {"result": "no mesh"}
+        if run.returncode != 0:
+            raise SystemExit("tuning.py: {} with {}: {}".format(part, tuning or "nothing changed", run.stderr.strip()))
+        with open(report, encoding="utf-8") as file:
+            found = json.load(file)
+        lost = any(count["captured"] < count["total"] for count in (found["cad"][kind] for kind in ("faces", "edges", "vertices")))
+        quality = found["quality"]
+        return {"result": "valid" if lost else "complete", "cells": found["counts"]["hexes"], "min SJ": quality["min_scaled_jacobian"],
+                "mean SJ": quality["mean_scaled_jacobian"], "mesh": digest(output)}
+
+
+class Trials:
+    """What was meshed before, in a file that only grows."""
+
+    def __init__(self, path, program, options):
+        self.path, self.program, self.options, self.known = path, program, options, {}
+        self.key = digest(program)[:16] + " " + " ".join(options)
+        if os.path.exists(path):
+            with open(path, encoding="utf-8") as file:
+                for line in file:
+                    try:
+                        row = json.loads(line)
+                    except ValueError:
+                        continue  # the run was stopped in the middle of it
+                    if row["key"] == self.key:
+                        self.known[row["part"], row["tuning"]] = row["found"]
+
+    def __call__(self, part, changes):
+        tuning = ",".join("{}={!r}".format(*change) for change in changes)
+        name = os.path.basename(part)
+        if (name, tuning) not in self.known:
+            found = self.known[name, tuning] = mesh(self.program, part, tuning, self.options)
+            with open(self.path, "a", encoding="utf-8") as file:
+                file.write(json.dumps({"key": self.key, "part": name, "tuning": tuning, "found": found}) + "\n")
+        return self.known[name, tuning]
+
+
+def try_all(trials, part, changes, groups):
+    """{change: what comes out} for those that make another mesh of the part."""
+    start, found = trials(part, []), {}
+
+    def split(some):
+        out = trials(part, some)
+        if out == start:
+            return
+        if len(some) == 1:
+            found[some[0]] = out
+            return
+        split(some[:len(some) // 2])
+        split(some[len(some) // 2:])
+
+    for first in range(0, len(changes), groups):
+        split(changes[first:first + groups])
+    return found
+
+
+def change_of(start, other):
+    """(what changed most, as text; whether it counts)"""
+    if start["result"] != other["result"]:
+        return "{} -> {}".format(start["result"], other["result"]), True
+    if "cells" not in start:
+        return "", False
+    size = {"cells": other["cells"] / start["cells"] - 1, "min SJ": other["min SJ"] - start["min SJ"], "mean SJ": other["mean SJ"] - start["mean SJ"]}
+    most = max(size, key=lambda what: abs(size[what]) / CHANGES[what])
+    text = "cells {:+.0%}".format(size[most]) if most == "cells" else "{} {:+.3f}".format(most, size[most])
+    return text, abs(size[most]) > CHANGES[most]
+
+
+def family(part):
+    return re.sub(r"_\d+$", "", os.path.splitext(os.path.basename(part))[0])
+
+
+def verdict(families):
+    """`families`: for each that has another mesh whether the change counts. The verdict with each family left out has to be the same."""
+    if not families:
+        return "changes nothing"
+    counting = sorted(name for name, counts in families.items() if counts)
+    if len(counting) == 1:
+        return "matters, for " + counting[0] + " only"
+    return "matters" if counting else "other meshes, as good"
+
+
+def page(entries, values, parts, results, options):
+    """results: {part: (start, {change: found})}"""
+    marks = collections.Counter(entry.mark for entry in entries)
+    lines = ["# Which tuning values matter", "",
+             "`sh resources/polycube bench --tuning FOLDER -o tests/tuning.md`: each entry of the stages' `tuning.h` at {} and {} of its value (whole numbers: one less and one more at least), the mesh "
+             "compared with that of the defaults; options `{}`. Of {} entries {}. A change counts from {:.0%} of the cells, {} of the min or {} of the mean scaled Jacobian on, or where the result is "
+             "another one. An entry that *changes nothing* does so on these parts: many guard against what none of them has.".format(
+                 LOWER, HIGHER, " ".join(options), len(entries), ", ".join("{} have the mark {}".format(marks[mark.lower()], mark.lower()) for mark in MARKS),
+                 CHANGES["cells"], CHANGES["min SJ"], CHANGES["mean SJ"]), "",
+             "Parts: " + ", ".join("{} ({}{})".format(os.path.splitext(os.path.basename(part))[0], results[part][0]["result"], ", {} cells, min SJ {:.2f}".format(
+                 results[part][0]["cells"], results[part][0]["min SJ"]) if "cells" in results[part][0] else "") for part in parts) + ".", "",
+             "| entry | value | mark | parts with another mesh | largest change | verdict |", "|---|---|---|---|---|---|"]
+    for entry in entries:
+        names = [name for name in values if name == entry.name or name.startswith(entry.name + ".")]
+        changed, families, largest = set(), {}, ("", False)
+        for part in parts:
+            start, found = results[part]
+            for (name, _), other in found.items():
+                if name in names:
+                    changed.add(part)
+                    text, counts = change_of(start, other)
+                    families[family(part)] = families.get(family(part), False) or counts
+                    if (counts, "->" in text, abs(float(re.sub(r"[^\d.]", "", text) or 0) if "->" not in text else 0)) > (
+                            largest[1], "->" in largest[0], abs(float(re.sub(r"[^\d.]", "", largest[0]) or 0) if "->" not in largest[0] else 0)):
+                        largest = (text, counts)
+        shown = ", ".join("{:.4g}".format(values[name]) for name in names)
+        lines.append("| {} | {} | {} | {} of {} | {} | {} |".format(entry.name, shown, entry.mark, len(changed), len(parts), largest[0], verdict(families)))
+    return "\n".join(lines) + "\n"
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="bench --tuning", description=__doc__.split("\n")[0])
+    parser.add_argument("program")
+    parser.add_argument("folder", nargs="?", help="parts")
+    parser.add_argument("-o", "--output", help="page, .md")
+    parser.add_argument("--entries", default="", help="these only, such as pad.hopeless,label")
+    parser.add_argument("--list", action="store_true", help="entries, values, marks and meanings, no more")
+    parser.add_argument("--jobs", type=int, default=1, help="parts side by side")
+    arguments = parser.parse_args(words)
+    entries = [entry for path in headers() for entry in read_header(path)[0]]
+    wanted = [name for name in arguments.entries.split(",") if name]
+    for name in wanted:
+        if not any(name in (entry.name, entry.name.split(".")[0]) for entry in entries):
+            parser.error("there is no '{}'".format(name))
+    entries = [entry for entry in entries if not wanted or entry.name in wanted or entry.name.split(".")[0] in wanted]
+    if arguments.list:
+        for entry in entries:
+            print("{:32s} {:24s} {}".format(entry.name, entry.value, entry.meaning))
+        return
+    if not arguments.folder or not arguments.output:
+        parser.error("a folder of parts and -o PAGE are needed")
+    parts = sorted(path for path in glob.glob(os.path.join(arguments.folder, "*")) if path.lower().endswith((".step", ".stp", ".brep", ".brp")))
+    if not parts:
+        parser.error("{} has no parts".format(arguments.folder))
+    values = json.loads(subprocess.run([arguments.program, "describe", "--tuning"], capture_output=True, text=True, check=True).stdout)
+    options = ["--threads", "1"]
+    trials = Trials(arguments.output + ".trials", arguments.program, options)
+    names = [name for entry in entries for name in values if name == entry.name or name.startswith(entry.name + ".")]
+    changes = [[(name, other_values(values[name])[way]) for name in names if way < len(other_values(values[name]))] for way in range(2)]
+
+    def results_of(part):
+        found = {}
+        for some in changes:
+            found.update(try_all(trials, part, some, GROUP))
+        print("{}: {} of {} values make another mesh".format(os.path.basename(part), len(found), sum(map(len, changes))), flush=True)
+        return trials(part, []), found
+
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        results = dict(zip(parts, pool.map(results_of, parts)))
+    with open(arguments.output, "w", encoding="utf-8") as file:
+        file.write(page(entries, values, parts, results, options))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -24,6 +24,7 @@
 #include "pipeline/integers.h"
 #include "pipeline/local_refinement.h"
 #include "pipeline/loose_nodes.h"
+#include "pipeline/search/tuning.h"
 #include "pipeline/shortfalls.h"
 #include "pipeline/solids.h"
 #include "pipeline/stage_clock.h"
@@ -104,7 +105,7 @@ class Conformer {
         Draft draft = drafted(based(*structure));
         const auto rank = [](const Draft& d) { return std::pair(-d.lost(), d.fitted.min_scaled_jacobian); };
         if (!best || rank(draft) > rank(*best)) best = std::move(draft);
-        if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kPipelineTuning.conform_good) break;
+        if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kSearchTuning.good_scaled_jacobian) break;
       } catch (const StageFailed& e) {
         monitor_.log("conform: " + e.stage() + ": " + e.what());
         if (!failure || e.stage() == "interfaces") failure = e;
@@ -135,7 +136,7 @@ class Conformer {
   int count(const Base& base) {
     int cells = 0;
     double share = 1;
-    for (int round = 0; round <= kPipelineTuning.conform_recounts; ++round) {
+    for (int round = 0; round <= kSearchTuning.recounts; ++round) {
       Laid made = laid(base, options_.divisions, share);
       const std::size_t first =
           made.choices.size() < 2 ? 0 : clock_.stage("fit", [&] { return most_promising(model_.whole, candidates_of(made.choices), fit_options(), monitor_); });
@@ -144,7 +145,7 @@ class Conformer {
       const auto miss = [&](int n) { return std::abs(n / wanted_cells() - 1); };
       if (round > 0 && miss(found) >= miss(cells)) break;
       cells = found;
-      if (options_.hexes <= 0 || miss(cells) <= kPipelineTuning.conform_padded_miss) break;
+      if (options_.hexes <= 0 || miss(cells) <= kSearchTuning.padded_miss) break;
       share = made.draft.grid_hexes / cells;
     }
     return cells;
@@ -216,7 +217,7 @@ class Conformer {
   void recount(const Base& base, Draft& draft) {
     const auto cells = [](const Draft& d) { return static_cast<double>(d.joined.whole.mesh.hexes.size()); };
     const auto miss = [&](const Draft& d) { return std::abs(cells(d) / wanted_cells() - 1); };
-    for (int round = 0; round < kPipelineTuning.conform_recounts && miss(draft) > kPipelineTuning.conform_padded_miss; ++round) {
+    for (int round = 0; round < kSearchTuning.recounts && miss(draft) > kSearchTuning.padded_miss; ++round) {
       std::optional<Draft> next = again(base, options_.divisions, draft.grid_hexes / cells(draft), "another number of cells");
       if (!next || miss(*next) >= miss(draft)) return;
       draft = std::move(*next);
@@ -271,7 +272,7 @@ class Conformer {
     auto chains = edge_chains(model_.outer, base.s.tets);
     const MeshOptions demands = by_entity(divisions);
     IntegerOptions wanted;
-    wanted.scale = options_.coarsest ? kPipelineTuning.conform_coarsest : 1 / size_;
+    wanted.scale = options_.coarsest ? kSearchTuning.coarsest : 1 / size_;
     if (options_.hexes > 0) wanted.wanted_cells = share * wanted_cells();
     wanted.growth = options_.growth;
     wanted.coarsest = options_.coarsest;
@@ -529,7 +530,7 @@ class Conformer {
 
   void fit_choices(Draft& draft, std::vector<PaddedGrids> choices) {
     const std::vector<FitCandidate> candidates = candidates_of(choices);
-    const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kPipelineTuning.conform_good; };
+    const auto good = [](std::size_t, const FitReport& r) { return r.inverted == 0 && r.min_scaled_jacobian >= kSearchTuning.good_scaled_jacobian; };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_.whole, candidates, fit_options(), kPipelineTuning.conform_fits, good, monitor_); });
     draft.fitted = best.report;
     monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +

@@ -7,6 +7,7 @@
 
 #include "core/charts.h"
 #include "core/error.h"
+#include "label/tuning.h"
 #include "pipeline/tuning.h"
 
 namespace polycube {
@@ -106,7 +107,7 @@ Inspection inspect(const LabelledPart& part) {
       result.chart[t] = c;
     }
     label.push_back(2 * charts[c].axis + (charts[c].sign < 0));
-    if (std::ssize(charts[c].triangles) <= kPipelineTuning.stray_triangles || area < 4 * edge * edge) result.stray_charts.push_back(c);
+    if (std::ssize(charts[c].triangles) <= kLabelTuning.stray_triangles || area < 4 * edge * edge) result.stray_charts.push_back(c);
   }
   std::vector<Vec3> points;
   for (const Vec3& p : mesh.points) points.push_back(part.labelling.frame * p);

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "label/frame.h"
+#include "label/tuning.h"
 #include "pipeline/tuning.h"
 
 namespace polycube {
@@ -90,7 +91,7 @@ std::vector<Mat3> Pose::frames(const MeshOptions& options) const {
   const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
   if (frame_given || by_axis || !options.labels.empty()) return result;
   for (const Mat3& f : find_frames(model, kPipelineTuning.frames)) {
-    if (frame_turn(f, frame) > kPipelineTuning.same_frame) result.push_back(f);
+    if (frame_turn(f, frame) > kLabelTuning.same_frame) result.push_back(f);
   }
   return result;
 }

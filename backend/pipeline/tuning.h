@@ -43,20 +43,10 @@ struct PipelineTuning {
   int conform_fits = 3;
   /// Ways to lay layers through several solids that are fitted. Measured: on 8 parts the first was the best each time.
   std::size_t conform_across = 1;
-  /// Scale of the coarsest mesh of several solids. Theory: small enough that only the bounds count (eta of section 6.2).
-  double conform_coarsest = 1e-6;
-  /// A labelling of several solids whose worst cell is as good as this ends the search. Theory: good_cells of one solid asks for no more.
-  double conform_good = 0.2;
-  /// How far off a number of cells may be with padding, as for one solid. Guess.
-  double conform_padded_miss = 0.1;
-  /// Times that it is tried to come nearer to it. Guess.
-  int conform_recounts = 2;
   /// Of the diagonal: below this a mesh edge is none. Guess.
   double shortest_edge = 1e-8;
   /// Cosine of the bend of a zigzag, 35 degrees. Theory: a boundary along generators, CAD edges or 45 degree lines bends less.
   double zigzag = 0.82;
-  /// Triangles of a chart that is listed as stray. Guess.
-  int stray_triangles = 4;
   /// Times that the integers are found anew for what stands beside each other. Guess.
   int neighbour_rounds = 3;
   /// How far off a number of cells that was asked for may be without padding, as a logarithm. Guess.
@@ -84,8 +74,6 @@ struct PipelineTuning {
   int pose_samples = 7;
   /// Frames of the labels that are tried for the pose. Guess.
   std::size_t frames = 3;
-  /// Radians within which two frames are one. Guess.
-  double same_frame = 0.1;
   /// Relative: shapes are as symmetric as this. Guess.
   double tie = 1e-6;
   /// Times that features are given up for the folds that they add. Guess.
@@ -101,10 +89,9 @@ struct PipelineTuning {
   int few_flips = 50;
 
   POLYCUBE_ENTRIES(slack, share_slack, widest_aspect, thinnest, smallest, most_rounds, circle_slack, small_circle, per_small_circle, fewest_round, most_turns,
-                   turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, conform_coarsest, conform_good, conform_padded_miss,
-                   conform_recounts, shortest_edge, zigzag, stray_triangles, neighbour_rounds, count_miss, count_power, count_reach, count_rounds,
-                   much_of_asked, much_of_all, finishing, hurry, posed_size, grid, pose_samples, frames, same_frame, tie, realise_rounds, few_folds, opposite,
-                   mapped, few_flips)
+                   turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, shortest_edge, zigzag, neighbour_rounds, count_miss,
+                   count_power, count_reach, count_rounds, much_of_asked, much_of_all, finishing, hurry, posed_size, grid, pose_samples, frames, tie,
+                   realise_rounds, few_folds, opposite, mapped, few_flips)
 };
 
 inline constexpr const PipelineTuning& kPipelineTuning = tuning_in_force<PipelineTuning>;

@@ -89,6 +89,10 @@ def mesh(program, part, tuning, options):
                 "mean SJ": quality["mean_scaled_jacobian"], "mesh": digest(output)}
 
 
+def text_of(change):
+    return "{}={!r}".format(*change)
+
+
 class Trials:
     """What was meshed before, in a file that only grows."""
 
@@ -106,7 +110,7 @@ class Trials:
                         self.known[row["part"], row["tuning"]] = row["found"]
 
     def __call__(self, part, changes):
-        tuning = ",".join("{}={!r}".format(*change) for change in changes)
+        tuning = ",".join(map(text_of, changes))
         name = os.path.basename(part)
         if (name, tuning) not in self.known:
             found = self.known[name, tuning] = mesh(self.program, part, tuning, self.options)
@@ -114,23 +118,34 @@ class Trials:
                 file.write(json.dumps({"key": self.key, "part": name, "tuning": tuning, "found": found}) + "\n")
         return self.known[name, tuning]
 
+    def knows(self, part, change):
+        return (os.path.basename(part), text_of(change)) in self.known
 
-def try_all(trials, part, changes, groups):
+    def without_effect(self, part, start):
+        """Changes, as texts, that are known to leave the mesh as it is, from groups of whatever run."""
+        name = os.path.basename(part)
+        return {text for (other, tuning), found in list(self.known.items()) if other == name and found == start for text in tuning.split(",")}
+
+
+def try_all(trials, part, changes):
     """{change: what comes out} for those that make another mesh of the part."""
-    start, found = trials(part, []), {}
+    start = trials(part, [])
+    settled = trials.without_effect(part, start)
+    found = {change: trials(part, [change]) for change in changes if trials.knows(part, change) and trials(part, [change]) != start}
 
     def split(some):
+        some = [change for change in some if text_of(change) not in settled and change not in found]
+        if not some:
+            return {}
         out = trials(part, some)
         if out == start:
-            return
+            return {}
         if len(some) == 1:
-            found[some[0]] = out
-            return
-        split(some[:len(some) // 2])
-        split(some[len(some) // 2:])
+            return {some[0]: out}
+        return {**split(some[:len(some) // 2]), **split(some[len(some) // 2:])}
 
-    for first in range(0, len(changes), groups):
-        split(changes[first:first + groups])
+    for first in range(0, len(changes), GROUP):
+        found.update(split(changes[first:first + GROUP]))
     return found
 
 
@@ -223,14 +238,17 @@ def main(words):
     def results_of(part):
         found = {}
         for some in changes:
-            found.update(try_all(trials, part, some, GROUP))
+            found.update(try_all(trials, part, some))
         print("{}: {} of {} values make another mesh".format(os.path.basename(part), len(found), sum(map(len, changes))), flush=True)
         return trials(part, []), found
 
+    results = {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        results = dict(zip(parts, pool.map(results_of, parts)))
-    with open(arguments.output, "w", encoding="utf-8") as file:
-        file.write(page(entries, values, parts, results, options))
+        done = {pool.submit(results_of, part): part for part in parts}
+        for future in concurrent.futures.as_completed(done):
+            results[done[future]] = future.result()
+            with open(arguments.output, "w", encoding="utf-8") as file:  # of the parts so far
+                file.write(page(entries, values, sorted(results), results, options))
 
 
 if __name__ == "__main__":

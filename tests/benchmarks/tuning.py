@@ -26,7 +26,7 @@ MARKS = ("Theory", "Measured", "Guess")
 LOWER, HIGHER = 0.7, 1.4
 # What counts: less than this is another mesh, not a better or a worse one (guess).
 CHANGES = {"cells": 0.05, "min SJ": 0.02, "mean SJ": 0.01}
-GROUP = 16  # entries that are changed together at first (guess: about one in ten changes a simple part)
+GROUP = 16  # entries that are changed together at first (measured: one in thirteen makes another mesh of a simple part)
 LIMIT = 300  # seconds that a mesh may take, which the simple parts meant here need a hundredth of
 
 Entry = collections.namedtuple("Entry", "name value mark meaning header")
@@ -175,34 +175,56 @@ def verdict(families):
     return "matters" if counting else "other meshes, as good"
 
 
+def weight(change):
+    """For the largest of several changes, as change_of() gives them."""
+    text, counts = change
+    return counts, "->" in text, 0 if "->" in text or not text else abs(float(text.split(" ")[-1].rstrip("%")))
+
+
+def told(part, start):
+    quality = ", {} cells, min SJ {:.2f}".format(start["cells"], start["min SJ"]) if "cells" in start else ""
+    return "{} ({}{})".format(os.path.splitext(os.path.basename(part))[0], start["result"], quality)
+
+
+def row(entry, values, parts, results):
+    """Texts of the entry's line."""
+    names = [name for name in values if name == entry.name or name.startswith(entry.name + ".")]
+    changed, families, largest = set(), {}, ("", False)
+    for part in parts:
+        start, found = results[part]
+        for other in (other for (name, _), other in found.items() if name in names):
+            change = change_of(start, other)
+            changed.add(part)
+            families[family(part)] = families.get(family(part), False) or change[1]
+            largest = max(largest, change, key=weight)
+    shown = ", ".join("{:.4g}".format(values[name]) for name in names)
+    return [entry.name, shown, entry.mark, "{} of {}".format(len(changed), len(parts)), largest[0], verdict(families)]
+
+
 def page(entries, values, parts, results, options):
     """results: {part: (start, {change: found})}"""
+    rows = [row(entry, values, parts, results) for entry in entries]
     marks = collections.Counter(entry.mark for entry in entries)
-    lines = ["# Which tuning values matter", "",
-             "`sh resources/polycube bench --tuning FOLDER -o tests/tuning.md`: each entry of the stages' `tuning.h` at {} and {} of its value (whole numbers: one less and one more at least), the mesh "
-             "compared with that of the defaults; options `{}`. Of {} entries {}. A change counts from {:.0%} of the cells, {} of the min or {} of the mean scaled Jacobian on, or where the result is "
-             "another one. An entry that *changes nothing* does so on these parts: many guard against what none of them has.".format(
-                 LOWER, HIGHER, " ".join(options), len(entries), ", ".join("{} have the mark {}".format(marks[mark.lower()], mark.lower()) for mark in MARKS),
-                 CHANGES["cells"], CHANGES["min SJ"], CHANGES["mean SJ"]), "",
-             "Parts: " + ", ".join("{} ({}{})".format(os.path.splitext(os.path.basename(part))[0], results[part][0]["result"], ", {} cells, min SJ {:.2f}".format(
-                 results[part][0]["cells"], results[part][0]["min SJ"]) if "cells" in results[part][0] else "") for part in parts) + ".", "",
-             "| entry | value | mark | parts with another mesh | largest change | verdict |", "|---|---|---|---|---|---|"]
-    for entry in entries:
-        names = [name for name in values if name == entry.name or name.startswith(entry.name + ".")]
-        changed, families, largest = set(), {}, ("", False)
-        for part in parts:
-            start, found = results[part]
-            for (name, _), other in found.items():
-                if name in names:
-                    changed.add(part)
-                    text, counts = change_of(start, other)
-                    families[family(part)] = families.get(family(part), False) or counts
-                    if (counts, "->" in text, abs(float(re.sub(r"[^\d.]", "", text) or 0) if "->" not in text else 0)) > (
-                            largest[1], "->" in largest[0], abs(float(re.sub(r"[^\d.]", "", largest[0]) or 0) if "->" not in largest[0] else 0)):
-                        largest = (text, counts)
-        shown = ", ".join("{:.4g}".format(values[name]) for name in names)
-        lines.append("| {} | {} | {} | {} of {} | {} | {} |".format(entry.name, shown, entry.mark, len(changed), len(parts), largest[0], verdict(families)))
-    return "\n".join(lines) + "\n"
+    verdicts = collections.Counter(re.sub(", for .*", "", texts[-1]) for texts in rows)
+    return """# Which tuning values matter
+
+`sh resources/polycube bench --tuning FOLDER -o PAGE.md` makes this page: each entry of the stages' `tuning.h` at {} and {} of its value (whole numbers: one less and one more at least), with the
+options `{}`, and the mesh compared with that of the values as they are. A change counts from {:.0%} of the cells, {} of the min or {} of the mean scaled Jacobian on, or where the result is another one.
+A verdict that rests on one family of parts says so.
+
+An entry that *changes nothing* does so on these parts. Many are there for what none of them has: a folded map, a turning point, a crowded vertex, an inverted cell, several solids, a number of
+cells or a time limit asked for.
+
+- Parts: {}.
+- Of {} entries {}.
+- {}.
+
+| entry | value | mark | parts with another mesh | largest change | verdict |
+|---|---|---|---|---|---|
+{}
+""".format(LOWER, HIGHER, " ".join(options), CHANGES["cells"], CHANGES["min SJ"], CHANGES["mean SJ"], ", ".join(told(part, results[part][0]) for part in parts), len(entries),
+           ", ".join("{} have the mark {}".format(marks[mark.lower()], mark.lower()) for mark in MARKS),
+           ", ".join("{}: {}".format(*item) for item in sorted(verdicts.items())), "\n".join("| " + " | ".join(texts) + " |" for texts in rows))
 
 
 def main(words):

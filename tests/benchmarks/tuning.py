@@ -5,7 +5,7 @@ many parts the mesh is another one, the largest change, and a verdict that says 
 them has changes nothing here.
 
 Entries that are changed together and leave a mesh as it is, bit for bit, are taken to leave it so one by one; so halves of a group are tried only where the group changes something.
-What was meshed stands in PAGE.md.trials, so that a run can be stopped and gone on with; trials by another program are not counted.
+What was meshed stands in PAGE.md.trials, so that a run can be stopped and gone on with.
 """
 
 import argparse
@@ -94,44 +94,45 @@ def text_of(change):
 
 
 class Trials:
-    """What was meshed before, in a file that only grows."""
+    """What was meshed before, in a file that only grows. Trials of a part count as long as its mesh without changes is the one that it was then."""
 
     def __init__(self, path, program, options):
-        self.path, self.program, self.options, self.known = path, program, options, {}
-        self.key = digest(program)[:16] + " " + " ".join(options)
+        self.path, self.program, self.options, self.known, self.start = path, program, options, collections.defaultdict(dict), {}
         if os.path.exists(path):
             with open(path, encoding="utf-8") as file:
                 for line in file:
                     try:
-                        row = json.loads(line)
+                        found = json.loads(line)
                     except ValueError:
                         continue  # the run was stopped in the middle of it
-                    if row["key"] == self.key:
-                        self.known[row["part"], row["tuning"]] = row["found"]
+                    self.known[found["part"], found["options"], json.dumps(found["start"])][found["tuning"]] = found["found"]
+
+    def begin(self, part):
+        """The part's mesh without changes, which has to come before others."""
+        self.start[part] = mesh(self.program, part, "", self.options)
+        return self.start[part]
+
+    def of(self, part):
+        """What comes out by what was changed, as text."""
+        return self.known[os.path.basename(part), " ".join(self.options), json.dumps(self.start[part])]
 
     def __call__(self, part, changes):
         tuning = ",".join(map(text_of, changes))
-        name = os.path.basename(part)
-        if (name, tuning) not in self.known:
-            found = self.known[name, tuning] = mesh(self.program, part, tuning, self.options)
+        known = self.of(part)
+        if tuning not in known:
+            known[tuning] = mesh(self.program, part, tuning, self.options)
             with open(self.path, "a", encoding="utf-8") as file:
-                file.write(json.dumps({"key": self.key, "part": name, "tuning": tuning, "found": found}) + "\n")
-        return self.known[name, tuning]
-
-    def knows(self, part, change):
-        return (os.path.basename(part), text_of(change)) in self.known
-
-    def without_effect(self, part, start):
-        """Changes, as texts, that are known to leave the mesh as it is, from groups of whatever run."""
-        name = os.path.basename(part)
-        return {text for (other, tuning), found in list(self.known.items()) if other == name and found == start for text in tuning.split(",")}
+                file.write(json.dumps({"part": os.path.basename(part), "options": " ".join(self.options), "start": self.start[part], "tuning": tuning,
+                                       "found": known[tuning]}) + "\n")
+        return known[tuning]
 
 
 def try_all(trials, part, changes):
-    """{change: what comes out} for those that make another mesh of the part."""
-    start = trials(part, [])
-    settled = trials.without_effect(part, start)
-    found = {change: trials(part, [change]) for change in changes if trials.knows(part, change) and trials(part, [change]) != start}
+    """(what comes out without changes, {change: what comes out} for those that make another mesh of the part)"""
+    start = trials.begin(part)
+    known = trials.of(part)
+    settled = {text for tuning, found in known.items() if found == start for text in tuning.split(",")}
+    found = {change: known[text_of(change)] for way in changes for change in way if known.get(text_of(change), start) != start}
 
     def split(some):
         some = [change for change in some if text_of(change) not in settled and change not in found]
@@ -144,9 +145,10 @@ def try_all(trials, part, changes):
             return {some[0]: out}
         return {**split(some[:len(some) // 2]), **split(some[len(some) // 2:])}
 
-    for first in range(0, len(changes), GROUP):
-        found.update(split(changes[first:first + GROUP]))
-    return found
+    for way in changes:
+        for first in range(0, len(way), GROUP):
+            found.update(split(way[first:first + GROUP]))
+    return start, found
 
 
 def change_of(start, other):
@@ -258,11 +260,9 @@ def main(words):
     changes = [[(name, other_values(values[name])[way]) for name in names if way < len(other_values(values[name]))] for way in range(2)]
 
     def results_of(part):
-        found = {}
-        for some in changes:
-            found.update(try_all(trials, part, some))
+        start, found = try_all(trials, part, changes)
         print("{}: {} of {} values make another mesh".format(os.path.basename(part), len(found), sum(map(len, changes))), flush=True)
-        return trials(part, []), found
+        return start, found
 
     results = {}
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:

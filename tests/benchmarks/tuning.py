@@ -26,7 +26,7 @@ MARKS = ("Theory", "Measured", "Guess")
 LOWER, HIGHER = 0.7, 1.4
 # What counts: less than this is another mesh, not a better or a worse one (guess).
 CHANGES = {"cells": 0.05, "min SJ": 0.02, "mean SJ": 0.01}
-GROUP = 16  # entries that are changed together at first (measured: one in thirteen makes another mesh of a simple part)
+GROUP = 64  # entries that are changed together at first (measured: of those that left other parts as they were one in a hundred changes a simple part)
 LIMIT = 300  # seconds that a mesh may take, which the simple parts meant here need a hundredth of
 
 Entry = collections.namedtuple("Entry", "name value mark meaning header")
@@ -116,6 +116,10 @@ class Trials:
         """What comes out by what was changed, as text."""
         return self.known[os.path.basename(part), " ".join(self.options), json.dumps(self.start[part])]
 
+    def busy(self):
+        """Changes, as texts, that make another mesh of some part: the likeliest to do so of the next."""
+        return {tuning for (_, _, start), known in list(self.known.items()) for tuning, found in list(known.items()) if found != json.loads(start)}
+
     def __call__(self, part, changes):
         tuning = ",".join(map(text_of, changes))
         known = self.of(part)
@@ -145,9 +149,14 @@ def try_all(trials, part, changes):
             return {some[0]: out}
         return {**split(some[:len(some) // 2]), **split(some[len(some) // 2:])}
 
+    busy = trials.busy()
     for way in changes:
-        for first in range(0, len(way), GROUP):
-            found.update(split(way[first:first + GROUP]))
+        for change in way:
+            if text_of(change) in busy:
+                found.update(split([change]))
+        quiet = [change for change in way if text_of(change) not in busy]
+        for first in range(0, len(quiet), GROUP):
+            found.update(split(quiet[first:first + GROUP]))
     return start, found
 
 
@@ -254,6 +263,7 @@ def main(words):
     if not parts:
         parser.error("{} has no parts".format(arguments.folder))
     values = json.loads(subprocess.run([arguments.program, "describe", "--tuning"], capture_output=True, text=True, check=True).stdout)
+    entries = [entry for entry in entries if any(name == entry.name or name.startswith(entry.name + ".") for name in values)]  # the program may be older
     options = ["--threads", "1"]
     trials = Trials(arguments.output + ".trials", arguments.program, options)
     names = [name for entry in entries for name in values if name == entry.name or name.startswith(entry.name + ".")]

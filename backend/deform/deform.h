@@ -3,13 +3,14 @@
 
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "deform/tuning.h"
 
 namespace polycube {
 
 struct DeformOptions {
-  int rotations = 12;  ///< local/global rounds after the first solve (as rigid as possible)
-  double merge = 0;    ///< mm: charts of one axis whose values differ by less become one plane
-  int threads = 2;     ///< the result does not depend on it
+  int rotations = kDeformTuning.rotations;  ///< local/global rounds after the first solve (as rigid as possible)
+  double merge = 0;                         ///< mm: charts of one axis whose values differ by less become one plane
+  int threads = 2;                          ///< the result does not depend on it
 };
 
 struct DeformReport {

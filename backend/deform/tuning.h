@@ -42,9 +42,11 @@ struct DeformTuning {
   double residual = 1e-10;
   /// Steps of conjugate gradients, which take 2 to 18; more are a fault. Guess.
   int most_steps = 200;
+  /// Rounds of rotations and solutions after the first one (DeformOptions). Guess.
+  int rotations = 12;
 
   POLYCUBE_ENTRIES(trial_rounds, lambda, outer, inner, patience, runaway, widest, fall, memory, coarsest, least_gain, weak, dense, power_steps, power_margin,
-                   residual, most_steps)
+                   residual, most_steps, rotations)
 };
 
 inline constexpr const DeformTuning& kDeformTuning = tuning_in_force<DeformTuning>;

@@ -6,12 +6,13 @@
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "fit/tuning.h"
 
 namespace polycube {
 
 struct FitOptions {
-  double target_scaled_jacobian = 0.3;  ///< work on worse cells goes on until this or no progress
-  int max_rounds = 60;
+  double target_scaled_jacobian = kFitTuning.target_scaled_jacobian;  ///< work on worse cells goes on until this or no progress
+  int max_rounds = kFitTuning.max_rounds;
   int threads = 2;  ///< the result does not depend on it
   /// Cells keep the sizes that they come with; else those of neighbours even out, and small cells beside large ones grow.
   bool keep_sizes = false;

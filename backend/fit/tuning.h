@@ -71,10 +71,14 @@ struct FitTuning {
   int samples = 257;
   /// Longest to shortest wanted length of a cell. Guess.
   double widest_aspect = 8;
+  /// Work on worse cells goes on until this (FitOptions). Guess.
+  double target_scaled_jacobian = 0.3;
+  /// Rounds of it (FitOptions). Guess.
+  int max_rounds = 60;
 
   POLYCUBE_ENTRIES(few, doubt, size_smoothing, flat, poor, twisted, narrow, nearly, first_rounds, prospect_rounds, prospect_worst, smooth_rounds, patience,
                    converged, rare, raise_stages, raise_highest, raise_progress, held, higher, highest, short_edge, wide_turn, turn_weight, half_floor_power,
-                   memory, far_turn, longest_step, straight, samples, widest_aspect)
+                   memory, far_turn, longest_step, straight, samples, widest_aspect, target_scaled_jacobian, max_rounds)
 };
 
 inline constexpr const FitTuning& kFitTuning = tuning_in_force<FitTuning>;

@@ -6,19 +6,20 @@
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "label/tuning.h"
 
 namespace polycube {
 
 struct LabelOptions {
-  double fidelity = 3;                           ///< weight of agreeing with the normal
-  double compactness = 1;                        ///< weight of short chart boundaries
-  double widest_bend = 0.5;                      ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
-  bool narrow_regions = false;                   ///< pieces of a face between generators that are small against the face may have labels of their own
-  bool room = true;                              ///< strips beside edges on barrels that come close to 45 degrees (strips.h)
-  int chamfer_axis = -1;                         ///< 0..2: chamfers (is_chamfer) of that axis prefer it; -1: the nearest axis
-  double strictness = 100;                       ///< energy that one violation is worth; high: any relabelling to be rid of it
-  bool gradual = true;                           ///< strictness is reached by doubling, so that violations that little cost mends are mended by little
-  std::vector<std::pair<int, int>> face_labels;  ///< (CAD face, label 0..5) given by the user
+  double fidelity = 3;                            ///< weight of agreeing with the normal
+  double compactness = 1;                         ///< weight of short chart boundaries
+  double widest_bend = kLabelTuning.widest_bend;  ///< radians: a face whose normals stay this near to their mean keeps one label unless repair halves it
+  bool narrow_regions = false;                    ///< pieces of a face between generators that are small against the face may have labels of their own
+  bool room = true;                               ///< strips beside edges on barrels that come close to 45 degrees (strips.h)
+  int chamfer_axis = -1;                          ///< 0..2: chamfers (is_chamfer) of that axis prefer it; -1: the nearest axis
+  double strictness = kLabelTuning.strictness;    ///< energy that one violation is worth; high: any relabelling to be rid of it
+  bool gradual = true;                            ///< strictness is reached by doubling, so that violations that little cost mends are mended by little
+  std::vector<std::pair<int, int>> face_labels;   ///< (CAD face, label 0..5) given by the user
   bool frame_given = false;
   Mat3 frame = Mat3::Identity();  ///< rows: the axes, right-handed
   int threads = 2;                ///< the result does not depend on it

@@ -107,12 +107,16 @@ struct LabelTuning {
   int bisections = 40;
   /// Samples of an edge along a barrel. Guess.
   int samples = 65;
+  /// Radians of the normals of a face that keeps one label (LabelOptions). Guess.
+  double widest_bend = 0.5;
+  /// Energy that one violation is worth (LabelOptions). Guess.
+  double strictness = 100;
 
   POLYCUBE_ENTRIES(aligned_cosine, flat_cosine, blunt_cosine, chamfer_turn, chamfer_from, chamfer_to, sharp_bend, small_share, narrow, most_divisions,
                    first_strictness, least_share, least_turn, bent_shares, steep, real_share, near_generators, across, fillets_whole, strict, lost_feature,
                    compactness, turn_price, level, same_frame, towards, against, level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length,
                    bend_edges, stray, stray_triangles, stray_share, stray_area, room_triangles, least_room, most_room, close, beyond, straight, line_step,
-                   bisections, samples)
+                   bisections, samples, widest_bend, strictness)
 };
 
 inline constexpr const LabelTuning& kLabelTuning = tuning_in_force<LabelTuning>;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "blocks/blocks.h"
+#include "quantize/tuning.h"
 
 namespace polycube {
 
@@ -27,8 +28,8 @@ struct QuantizeOptions {
   /// Integers per chart of a coarser mesh of the same blocks whose cells are to be subdivided: what has no extent there has none, all else
   /// keeps what it has at least. Empty: the best integers.
   std::vector<int> structure;
-  bool separate_features = true;  ///< C2 holds for the block vertices on features too, not only on boundary charts
-  int node_limit = 20000;         ///< of the search tree; past it the best solution found so far, with its gap
+  bool separate_features = true;                ///< C2 holds for the block vertices on features too, not only on boundary charts
+  int node_limit = kQuantizeTuning.node_limit;  ///< of the search tree; past it the best solution found so far, with its gap
 };
 
 struct Quantization {

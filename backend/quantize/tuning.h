@@ -18,8 +18,10 @@ struct QuantizeTuning {
   int reward_rounds = 100;
   /// Rounds of rewards without a better bound before they end. Guess.
   int idle_rounds = 3;
+  /// Nodes of the search tree, past which the best solution so far is taken (QuantizeOptions). Guess.
+  int node_limit = 20000;
 
-  POLYCUBE_ENTRIES(tie, candidates, repairs, reward_rounds, idle_rounds)
+  POLYCUBE_ENTRIES(tie, candidates, repairs, reward_rounds, idle_rounds, node_limit)
 };
 
 inline constexpr const QuantizeTuning& kQuantizeTuning = tuning_in_force<QuantizeTuning>;

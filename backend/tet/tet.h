@@ -4,13 +4,14 @@
 #include "cad/cad.h"
 #include "core/mesh.h"
 #include "core/monitor.h"
+#include "tet/tuning.h"
 
 namespace polycube {
 
 struct TetOptions {
-  double size = 0;            ///< target edge length, mm
-  double curvature = 12;      ///< elements per full circle that curved faces and edges get at least (finer than size where needed); 0: off
-  double attempt_limit = 30;  ///< seconds of processor time one setting may take before the next is tried: so a busy machine gives the same mesh
+  double size = 0;                          ///< target edge length, mm
+  double curvature = kTetTuning.curvature;  ///< elements per full circle that curved faces and edges get at least (finer than size where needed); 0: off
+  double attempt_limit = kTetTuning.attempt_limit;  ///< seconds of processor time of one setting, not of the clock: a busy machine gives the same mesh
 };
 
 /// Tets with every boundary node, edge and triangle classified. No tet has more than one boundary facet and no inner edge joins two boundary points

@@ -30,8 +30,12 @@ struct TetTuning {
   double parameter_step = 1e-6;
   /// Step in space to measure a curvature, of the diagonal. Guess.
   double step = 1e-5;
+  /// Elements round a full circle of curved faces and edges (TetOptions). Guess.
+  double curvature = 12;
+  /// Seconds of processor time that one of Gmsh's settings may take (TetOptions). Guess.
+  double attempt_limit = 30;
 
-  POLYCUBE_ENTRIES(far, near, probes, patience, finest, main_face, main_triangles, samples, quantile, parameter_step, step)
+  POLYCUBE_ENTRIES(far, near, probes, patience, finest, main_face, main_triangles, samples, quantile, parameter_step, step, curvature, attempt_limit)
 };
 
 inline constexpr const TetTuning& kTetTuning = tuning_in_force<TetTuning>;

@@ -78,6 +78,7 @@ std::string describe(const LabelVariant& v) {
   std::string text = "faces bend up to " + std::to_string(std::lround(v.widest_bend * 180 / std::numbers::pi)) + " degrees, strictness " +
                      std::to_string(std::lround(v.strictness));
   if (!v.gradual) text += " at once";
+  if (v.facing) text += ", facing their axes";
   if (v.narrow_regions) text += ", narrow regions";
   if (!v.room) text += ", no room beside edges";
   if (v.chamfer_axis >= 0) text += std::string(", chamfers along ") + "xyz"[v.chamfer_axis];
@@ -121,6 +122,7 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   options.room = variant.room;
   options.chamfer_axis = variant.chamfer_axis;
   options.gradual = variant.gradual;
+  options.facing = variant.facing;
   options.strictness = variant.strictness;
   options.widest_bend = variant.widest_bend;
   options.narrow_regions = variant.narrow_regions;
@@ -132,6 +134,12 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
                " edges without feature charts");
   made_.push_back(std::move(result));
   return made_.back();
+}
+
+std::vector<LabelVariant> LabelChoice::facing() const {
+  std::vector<LabelVariant> list{{.facing = true}, {.facing = true, .gradual = false}, {.facing = true, .strictness = kLabelTuning.strict}};
+  for (int f = 1; f < std::ssize(frames_); ++f) list.push_back({.frame = f, .facing = true});
+  return list;
 }
 
 const std::vector<LabelVariant>& LabelChoice::order() {

@@ -15,6 +15,7 @@ struct LabelVariant {
   double compactness = 1;  ///< times that of the options
   bool room = LabelOptions{}.room;
   int chamfer_axis = LabelOptions{}.chamfer_axis;
+  bool facing = LabelOptions{}.facing;
   bool gradual = LabelOptions{}.gradual;
   double strictness = LabelOptions{}.strictness;
   double widest_bend = LabelOptions{}.widest_bend;
@@ -46,6 +47,8 @@ class LabelChoice {
   /// with fewest faults and lost features come first, of equals those nearest to the normals; those with the same labels as one before come last.
   const std::vector<LabelVariant>& order();
   const Labelled& labelled(const LabelVariant& variant);
+  /// Those in which no region may stand square to its label's axis: for a map that folds where some do.
+  std::vector<LabelVariant> facing() const;
 
  private:
   const CadModel& model_;

@@ -86,6 +86,20 @@ std::array<int, 4> quarter_labels(const Cutter& cutter, int face, const Vec3& ax
 // Where two parts meet: away from the axis that neither of them faces.
 Vec3 ray(const Vec3& normal, int axis) { return (normal[axis] < 0 ? 1 : -1) * (Vec3::Unit(axis) - normal[axis] * normal); }
 
+// Shares of the extent across a face half way between places that follow each other, where they leave room.
+std::vector<double> shares_between(const Vec3& across, const std::vector<Vec3>& places) {
+  std::vector<double> at;
+  at.reserve(places.size());
+  for (const Vec3& p : places) at.push_back(across.dot(p));
+  std::sort(at.begin(), at.end());
+  std::vector<double> shares;
+  for (std::size_t i = 1; i < at.size(); ++i) {
+    const double extent = at.back() - at.front(), gap = at[i] - at[i - 1];
+    if (gap > kLabelTuning.least_gap * extent && gap < (1 - kLabelTuning.least_gap) * extent) shares.push_back(((at[i] + at[i - 1]) / 2 - at.front()) / extent);
+  }
+  return shares;
+}
+
 }  // namespace
 
 int third_at(const Vec3& normal, const Vec3& way) {
@@ -107,7 +121,7 @@ double third_side(const Vec3& normal, const Vec3& way, int part, int other) {
   return border.dot(ray(normal, part)) < 0 ? border.dot(way) : -border.dot(way);
 }
 
-std::vector<FaceCut> plane_cuts(const Vec3& normal) {
+std::vector<FaceCut> plane_cuts(const Vec3& normal, const std::vector<Vec3>& vertices) {
   std::vector<FaceCut> cuts;
   if (normal.cwiseAbs().minCoeff() > kLabelTuning.least_share) cuts.push_back({ray(normal, 0).normalized(), 0.5, true});
   for (int along = 0; along < 3; ++along) {
@@ -115,6 +129,7 @@ std::vector<FaceCut> plane_cuts(const Vec3& normal) {
     if (std::abs(normal[(along + 1) % 3]) < kLabelTuning.least_share || std::abs(normal[(along + 2) % 3]) < kLabelTuning.least_share) continue;
     const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
     for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share, false});
+    for (double share : shares_between(across, vertices)) cuts.push_back({across, share, false, true});
   }
   return cuts;
 }
@@ -127,6 +142,27 @@ std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning) {
   if (turning[k] < kLabelTuning.least_turn) return cuts;
   for (double share : kLabelTuning.bent_shares) cuts.push_back({Vec3::Unit(k), share, false});
   return cuts;
+}
+
+TetMesh cut_faces(TetMesh mesh, const std::vector<FaceCut>& cuts, const Mat3& frame, const Monitor& monitor) {
+  Cutter cutter{mesh, mesh.triangle_face};
+  for (int& r : cutter.region) r *= 8;
+  for (std::size_t face = 1; face < cuts.size(); ++face) {
+    const FaceCut& c = cuts[face];
+    if (!c.exact) continue;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (mesh.triangle_face[t] != static_cast<int>(face)) continue;
+      for (int n : mesh.triangles[t]) {
+        low = std::min(low, c.across.dot(frame * mesh.points[n]));
+        high = std::max(high, c.across.dot(frame * mesh.points[n]));
+      }
+    }
+    const double middle = low + c.share * (high - low);
+    cutter.cut(
+        static_cast<int>(face), 0, [&](const Vec3& p) { return c.across.dot(frame * p) - middle; }, monitor);
+  }
+  return mesh;
 }
 
 Tips divide_tips(const CadModel& model, const TetMesh& mesh, const Mat3& frame, const Monitor& monitor) {

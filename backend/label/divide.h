@@ -13,6 +13,7 @@ struct FaceCut {
   Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
   double share = 0.5;
   bool thirds = false;  ///< instead: three parts that meet in its middle, as the faces of a cube do in a corner
+  bool exact = false;   ///< the mesh is cut there beforehand (cut_faces): the parts may be narrower than its triangles
 };
 
 /// The part (0, 1, 2: the axis that it faces) of a plane divided in thirds, `way` from its middle.
@@ -20,8 +21,12 @@ int third_at(const Vec3& normal, const Vec3& way);
 /// Positive where that part lies, beside its border with another part.
 double third_side(const Vec3& normal, const Vec3& way, int part, int other);
 
-/// Ways to divide an oblique plane with this normal (in the frame) so that each part can face an axis of its own.
-std::vector<FaceCut> plane_cuts(const Vec3& normal);
+/// Ways to divide an oblique plane with this normal so that each part can face an axis of its own: at some shares of its extent, and half way between CAD
+/// vertices that follow each other across it, since what ends on it there may need one side for itself. `vertices`: of its border; all in the frame.
+std::vector<FaceCut> plane_cuts(const Vec3& normal, const std::vector<Vec3>& vertices);
+
+/// The mesh cut where `cuts` (per CAD face) are exact.
+TetMesh cut_faces(TetMesh mesh, const std::vector<FaceCut>& cuts, const Mat3& frame, const Monitor& monitor);
 
 /// Ways to divide a bent face (a side of a lens, of a wing) across the axis along which its normal turns, so that one part can face that axis. `mean`: its mean
 /// normal, `turning`: how far its normals are from it along each axis, both in the frame.

@@ -224,7 +224,7 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
     bool changed = false;
     for (std::size_t id = 0; id < members.size(); ++id) {
       const int face = s.mesh.triangle_face[members[id][0]];
-      if (area[id] > kLabelTuning.small_share * largest[face]) continue;
+      if (area[id] > kLabelTuning.small_share * largest[face] || s.cuts[face].exact) continue;
       if (s.options.narrow_regions && area[id] > kLabelTuning.narrow * edge * extent(s.mesh, members[id])) continue;
       std::map<int, double> border;
       for (int t : members[id]) {
@@ -248,6 +248,7 @@ Split split_regions(const Setup& s, const std::vector<int>& labels, const Halves
 
 // A labelling of regions, before the mesh is cut for it.
 struct Plan {
+  std::shared_ptr<const TetMesh> own_mesh;  // that the setup refers to, where it was cut for this labelling alone
   Setup setup;
   std::optional<Halves> half;  // stands on the setup
   Barrels barrels;
@@ -274,7 +275,7 @@ std::vector<int> join_halves(const RegionGraph& graph, const Split& split, const
 
 // The borders between regions of one face that got different labels: half way down a slope, or where the normal is as near to one direction as to the other.
 std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& joined) {
-  const auto& [setup, half, barrels, split, graph, region_label, left] = plan;
+  const auto& [own_mesh, setup, half, barrels, split, graph, region_label, left] = plan;
   const auto& s = setup;
   const Halves& halves = *half;
   std::vector<BorderFunction> result, half_way;
@@ -332,7 +333,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
                                 const std::vector<FaceCut>& cuts, const Room* room, const Monitor& monitor) {
   Setup prepared = prepare(model, mesh, options, tips, frame, cuts, room);
   const std::vector<char> divided = may_change(prepared);
-  auto plan = std::make_unique<Plan>(Plan{std::move(prepared), {}, Barrels(model, mesh, frame, divided, room), {}, {}, {}, {}});
+  auto plan = std::make_unique<Plan>(Plan{nullptr, std::move(prepared), {}, Barrels(model, mesh, frame, divided, room), {}, {}, {}, {}});
   const Setup& s = plan->setup;
   std::vector<int> first = cut_triangles(s, monitor);
   for (std::size_t t = 0; t < first.size(); ++t) {
@@ -354,7 +355,9 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
     for (int t : r.triangles) {
       votes[first[t]] += s.area[t];
       for (int l = 0; l < 6; ++l) r.data[l] += options.fidelity * data_cost(s, t, l) * s.area[t] / (s.scale * s.scale);
+      if (options.facing) r.normal += s.area[t] * s.normal[t];
     }
+    r.normal.normalize();  // a zero one stays
     for (int l = 0; l < 6; ++l) {
       if (given[r.face] >= 0 && given[r.face] != l) r.data[l] = kForbidden;
     }
@@ -402,7 +405,14 @@ bool label_changes_at_tip(const Plan& plan) {
 std::vector<FaceCut> cuts_of(const Plan& plan, int face) {
   const Setup& s = plan.setup;
   if (s.has_tip(face) || plan.half->barrel(face)) return {};
-  if (s.model.face(face).kind == SurfaceKind::kPlane) return plan.half->sloping(face) ? plane_cuts(s.frame * s.model.face(face).axis) : std::vector<FaceCut>{};
+  std::vector<Vec3> vertices;
+  if (s.options.facing) {
+    for (int e : s.model.face(face).edges) {
+      for (int v : s.model.edge(e).vertices) vertices.push_back(s.frame * s.model.vertex(v));
+    }
+  }
+  if (s.model.face(face).kind == SurfaceKind::kPlane)
+    return plan.half->sloping(face) ? plane_cuts(s.frame * s.model.face(face).axis, vertices) : std::vector<FaceCut>{};
   Vec3 mean = Vec3::Zero(), turning = Vec3::Zero();
   for (std::size_t t = 0; t < s.normal.size(); ++t) {
     if (s.mesh.triangle_face[t] == face) mean += s.area[t] * s.normal[t];
@@ -411,7 +421,7 @@ std::vector<FaceCut> cuts_of(const Plan& plan, int face) {
   for (std::size_t t = 0; t < s.normal.size(); ++t) {
     if (s.mesh.triangle_face[t] == face) turning = turning.cwiseMax((s.normal[t] - mean).cwiseAbs());
   }
-  if (s.flat[face] && plan.half->sloping(face)) return plane_cuts(mean);
+  if (s.flat[face] && plan.half->sloping(face)) return plane_cuts(mean, vertices);
   return bent_cuts(mean, turning);
 }
 
@@ -434,24 +444,28 @@ std::unique_ptr<Plan> best_plan(const CadModel& model, const TetMesh& mesh, cons
   }
   const TetMesh& base = best->setup.room ? room.mesh : mesh;
   const auto better_with = [&](const Tips* with, const std::vector<FaceCut>& cuts) {
-    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : base, options, with, frame, cuts, best->setup.room, monitor);
+    // Tips and rooms know the triangles of their meshes: those are not cut again.
+    const bool cut = !with && !best->setup.room && std::any_of(cuts.begin(), cuts.end(), [](const FaceCut& c) { return c.exact; });
+    const auto own = cut ? std::make_shared<const TetMesh>(cut_faces(mesh, cuts, frame, monitor)) : nullptr;
+    std::unique_ptr<Plan> plan = make_plan(model, with ? with->mesh : own ? *own : base, options, with, frame, cuts, best->setup.room, monitor);
+    plan->own_mesh = own;
     if (plan->left.score >= best->left.score) return false;
     best = std::move(plan);
     return true;
   };
-  if (best->left.valid() && !label_changes_at_tip(*best)) return best;
+  if (best->left.sound() && !label_changes_at_tip(*best)) return best;
   tips = divide_tips(model, base, frame, monitor);
   if (tips.any) {
     std::unique_ptr<Plan> divided = make_plan(model, tips.mesh, options, &tips, frame, usual, best->setup.room, monitor);
     // Where the labels change at a tip there is no telling from a few triangles which of them meet there, unless they are cut for it.
-    if (divided->left.valid() || divided->left.score < best->left.score) best = std::move(divided);
+    if (divided->left.sound() || divided->left.score < best->left.score) best = std::move(divided);
   }
   int tries = 0;
-  for (bool changed = true; changed && !best->left.valid();) {
+  for (bool changed = true; changed && !best->left.sound();) {
     changed = false;
     for (int f : faces_at_fault(*best)) {
       for (const FaceCut& cut : cuts_of(*best, f)) {
-        if (best->left.valid() || tries++ >= kLabelTuning.most_divisions) return best;
+        if (best->left.sound() || tries++ >= kLabelTuning.most_divisions) return best;
         std::vector<FaceCut> cuts = best->setup.cuts;
         cuts[f] = cut;
         changed |= better_with(best->setup.tips, cuts);
@@ -488,8 +502,8 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   std::unique_ptr<Plan> spare;
   std::unique_ptr<Plan> plan = best_plan(model, mesh, options, room, tips, spare, monitor);
   // Borders ask for points that cutting adds: the plan must stand on the mesh that is cut.
-  if (plan->setup.tips || plan->setup.room) {
-    mesh = plan->setup.tips ? tips.mesh : room.mesh;
+  if (plan->setup.tips || plan->setup.room || plan->own_mesh) {
+    mesh = plan->setup.tips ? tips.mesh : plan->own_mesh ? *plan->own_mesh : room.mesh;
     plan = make_plan(model, mesh, options, plan->setup.tips, plan->setup.frame, plan->setup.cuts, plan->setup.room, monitor);
   }
   monitor.progress("label", 0.5);
@@ -508,7 +522,8 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
   const RegionGraph& graph = plan->graph;
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
-              std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns");
+              std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns, " +
+              std::to_string(left.folded_regions) + " folded regions");
   if (report) {
     *report = {static_cast<int>(graph.regions.size()),
                static_cast<int>(find_charts(mesh.triangles, result.label).size()),
@@ -517,6 +532,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
                left.bad_corners,
                left.turning_points,
                left.bad_turns,
+               left.folded_regions,
                left.score,
                cost(*plan)};
   }

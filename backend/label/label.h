@@ -18,6 +18,7 @@ struct LabelOptions {
   bool room = true;                               ///< strips beside edges on barrels that come close to 45 degrees (strips.h)
   int chamfer_axis = -1;                          ///< 0..2: chamfers (is_chamfer) of that axis prefer it; -1: the nearest axis
   double strictness = kLabelTuning.strictness;    ///< energy that one violation is worth; high: any relabelling to be rid of it
+  bool facing = false;                            ///< regions that stand square to their label's axis, or face away, are violations, and divided at more places
   bool gradual = true;                            ///< strictness is reached by doubling, so that violations that little cost mends are mended by little
   std::vector<std::pair<int, int>> face_labels;   ///< (CAD face, label 0..5) given by the user
   bool frame_given = false;
@@ -40,6 +41,7 @@ struct LabelReport {
   int bad_corners = 0;
   int turning_points = 0;
   int bad_turns = 0;
+  int folded_regions = 0;
   double score = 0;   ///< of the violations, weighted
   double energy = 0;  ///< of the labels: deviation from the normals and borders, what the search lowers after the violations
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }

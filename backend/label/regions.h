@@ -10,6 +10,7 @@ struct Region {
   int face = 0;                  ///< CAD face
   double area = 0;               ///< mm^2
   std::array<double, 6> data{};  ///< cost of each label
+  Vec3 normal = Vec3::Zero();    ///< where it faces on the whole, in the frame of the labels, unit; zero: not known
   std::vector<int> triangles;
 };
 
@@ -42,7 +43,7 @@ struct RegionGraph {
 inline int dart_left(const RegionGraph& g, int d) { return d % 2 == 0 ? g.arcs[d / 2].left : g.arcs[d / 2].right; }
 inline int dart_right(const RegionGraph& g, int d) { return d % 2 == 0 ? g.arcs[d / 2].right : g.arcs[d / 2].left; }
 
-/// `triangle_region`: region number of each triangle, connected sets, 0-based without gaps. Fills everything but Region::data and Arc::weight.
+/// `triangle_region`: region number of each triangle, connected sets, 0-based without gaps. Fills everything but Region::data, Region::normal and Arc::weight.
 RegionGraph build_region_graph(const TetMesh& mesh, const std::vector<int>& triangle_region);
 
 }  // namespace polycube

@@ -42,6 +42,14 @@ struct LabelTuning {
   double steep = 0.5;
   /// Of the noise: what a boundary goes back at such a tip at least, for rounding is no reversal. Guess.
   double real_share = 0.01;
+  /// Share of its label's direction in a region's normal below which it folds: 84 degrees off. Guess.
+  double least_facing = 0.1;
+  /// What such a region weighs: as much as a bad corner. Guess.
+  double fold_score = 6;
+  /// Of its CAD face: what a chart has of a face is a sliver below this share, and may face anywhere. Guess.
+  double sliver = 0.04;
+  /// Of the extent of a plane: a gap between CAD vertices from which on it may be divided there; nearer to a vertex the cut would move off. Guess.
+  double least_gap = 0.1;
   /// Radians: generators of a barrel nearer to each other are one. Guess.
   double near_generators = std::numbers::pi / 36;
   /// Of the axis of a barrel in a direction across it. Guess.
@@ -113,10 +121,10 @@ struct LabelTuning {
   double strictness = 100;
 
   POLYCUBE_ENTRIES(aligned_cosine, flat_cosine, blunt_cosine, chamfer_turn, chamfer_from, chamfer_to, sharp_bend, small_share, narrow, most_divisions,
-                   first_strictness, least_share, least_turn, bent_shares, steep, real_share, near_generators, across, fillets_whole, strict, lost_feature,
-                   compactness, turn_price, level, same_frame, towards, against, level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length,
-                   bend_edges, stray, stray_triangles, stray_share, stray_area, room_triangles, least_room, most_room, close, beyond, straight, line_step,
-                   bisections, samples, widest_bend, strictness)
+                   first_strictness, least_share, least_turn, bent_shares, steep, real_share, least_facing, fold_score, sliver, least_gap, near_generators,
+                   across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, towards, against, level_cosine, off_vertex, aside,
+                   max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share, stray_area, room_triangles, least_room, most_room,
+                   close, beyond, straight, line_step, bisections, samples, widest_bend, strictness)
 };
 
 inline constexpr const LabelTuning& kLabelTuning = tuning_in_force<LabelTuning>;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <set>
 
 #include "core/charts.h"
@@ -103,6 +104,9 @@ bool is_polycube_corner(const std::vector<int>& labels) {
   return labels.size() <= kLongest && std::binary_search(kCodes.begin(), kCodes.end(), code_of(labels));
 }
 
+// `normal`: of any length; zero where it is not known.
+bool folds(const Vec3& normal, int label) { return normal.dot(label_vector(label)) < kLabelTuning.least_facing * normal.norm(); }
+
 }  // namespace
 
 /// The check of one labelling.
@@ -116,11 +120,12 @@ class ViolationFinder::Check {
     find_charts();
     check_loops();
     check_turns();
+    check_folds();
     for (std::size_t r = 0; r < hit_.size(); ++r) {
       if (hit_[r]) result_.regions.push_back(static_cast<int>(r));
     }
-    result_.score =
-        10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points + 6.0 * result_.bad_turns;
+    result_.score = 10.0 * result_.opposite_arcs + 10.0 * result_.poor_loops + 6.0 * result_.bad_corners + 3.0 * result_.turning_points +
+                    6.0 * result_.bad_turns + kLabelTuning.fold_score * result_.folded_regions;
     return std::move(result_);
   }
 
@@ -140,6 +145,21 @@ class ViolationFinder::Check {
       if (p == q || label_axis(p) != label_axis(q)) continue;
       ++result_.opposite_arcs;
       blame(2 * a);
+    }
+  }
+
+  void check_folds() {
+    std::vector<char> folded(g_.regions.size());
+    for (std::size_t r = 0; r < folded.size(); ++r) {
+      folded[r] = f_.folds_[r][static_cast<std::size_t>(label_[r])];
+      result_.folded_regions += folded[r];
+    }
+    if (result_.folded_regions == 0) return;
+    // What stands beside it forced it there.
+    for (const Arc& a : g_.arcs) {
+      if (!folded[a.left] && !folded[a.right]) continue;
+      hit_[a.left] = 1;
+      hit_[a.right] = 1;
     }
   }
 
@@ -325,6 +345,25 @@ class ViolationFinder::Check {
   Violations result_;
 };
 
+// What the charts have of single CAD faces, and folds.
+int folded_parts(const ChartGraph& c, const TetMesh& mesh) {
+  std::map<std::pair<int, int>, Vec3> facing;  // CAD face, chart: the normal times the area
+  std::map<std::pair<int, int>, double> area;
+  std::map<int, double> face_area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [i, j, k] = mesh.triangles[t];
+    const Vec3 normal = (c.points[j] - c.points[i]).cross(c.points[k] - c.points[i]) / 2;
+    const std::pair part(mesh.triangle_face[t], c.graph.triangle_region[t]);
+    facing.try_emplace(part, Vec3::Zero()).first->second += normal;
+    area[part] += normal.norm();
+    face_area[part.first] += normal.norm();
+  }
+  return static_cast<int>(std::count_if(facing.begin(), facing.end(), [&](const auto& part) {
+    const auto& [key, normal] = part;
+    return area[key] > kLabelTuning.sliver * face_area[key.first] && folds(normal, c.label[static_cast<std::size_t>(key.second)]);
+  }));
+}
+
 ViolationFinder::Course ViolationFinder::course(const std::vector<Vec3>& points, const Arc& arc, int axis) {
   Course result{{points[arc.nodes.front()][axis], false}};
   for (std::size_t i = 1; i < arc.nodes.size(); ++i) {
@@ -345,6 +384,10 @@ ViolationFinder::ViolationFinder(const RegionGraph& graph, const std::vector<Vec
   for (const Arc& a : graph.arcs) course_.push_back({course(points, a, 0), course(points, a, 1), course(points, a, 2)});
   for (const Junction& j : graph.junctions) {
     for (std::size_t i = 0; i < j.darts.size(); ++i) place_[j.darts[i]] = static_cast<int>(i);
+  }
+  for (const Region& r : graph.regions) {
+    folds_.emplace_back();
+    for (int l = 0; l < 6; ++l) folds_.back()[static_cast<std::size_t>(l)] = folds(r.normal, l) ? 1 : 0;
   }
 }
 
@@ -374,7 +417,9 @@ ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector
 
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
   const ChartGraph c = chart_graph(mesh, frame, labels);
-  return find_violations(c.graph, c.points, c.label, c.noise);
+  Violations result = find_violations(c.graph, c.points, c.label, c.noise);
+  result.folded_regions = folded_parts(c, mesh);
+  return result;
 }
 
 }  // namespace polycube

@@ -11,11 +11,14 @@ struct Violations {
   int bad_corners = 0;       ///< corners whose cyclic label order no polycube corner has
   int turning_points = 0;    ///< places where a boundary reverses along its axis
   int bad_turns = 0;         ///< chart borders that do not close as a rectilinear polygon
+  int folded_regions = 0;    ///< regions with a Region::normal that stand square to their label's axis or face away from it: most maps fold there
   double score = 0;          ///< weighted sum
   std::vector<int> regions;  ///< regions beside a violation, ascending
   std::vector<int> corners;  ///< junctions that are bad corners, ascending
 
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
+  /// Nothing that another division of faces could mend.
+  bool sound() const { return valid() && folded_regions == 0; }
 };
 
 /// For many labellings of one graph: what does not depend on the labels is worked out once. Safe to use from several threads.
@@ -44,6 +47,7 @@ class ViolationFinder {
 
   std::vector<std::array<Course, 3>> course_;  // per arc and axis
   std::vector<int> place_;                     // per dart: index among those of the junction where it starts
+  std::vector<std::array<char, 6>> folds_;     // per region and label: the region folds with it
 };
 
 /// The same for one labelling.
@@ -60,7 +64,8 @@ struct ChartGraph {
 /// `frame` takes the mesh to the frame of the labels.
 ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
-/// Of the charts of labels per triangle.
+/// Of the charts of labels per triangle. Folded regions, of what a chart has of one CAD face, slivers aside, are counted but no part of the score: a small face
+/// may well be bent round to where its neighbours want it.
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
 }  // namespace polycube

@@ -17,7 +17,13 @@ namespace polycube {
 namespace {
 
 MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, Monitor& searching, const Monitor& monitor) {
-  Evaluator evaluator(pose, options, structures, clock, searching);
+  const auto begun = Monitor::Clock::now();
+  const auto hurry = [&, begun] {
+    const auto deadline = searching.deadline();
+    return deadline != Monitor::Clock::time_point::max() &&
+           std::chrono::duration<double>(Monitor::Clock::now() - begun) > kPipelineTuning.hurry * std::chrono::duration<double>(deadline - begun);
+  };
+  Evaluator evaluator(pose, options, structures, clock, searching, hurry);
   const Budget budget = budget_of(options.effort);
   const auto evaluate = [&](const Plan& plan, const Made* from, int fits) {
     Outcome outcome = evaluator.evaluate(plan, from, fits);
@@ -28,12 +34,6 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
     return outcome;
   };
   const Schedule schedule(keeping_plans(options, evaluator.label_order()), last_plans(), budget);
-  const auto begun = Monitor::Clock::now();
-  const auto hurry = [&] {
-    const auto deadline = searching.deadline();
-    return deadline != Monitor::Clock::time_point::max() &&
-           std::chrono::duration<double>(Monitor::Clock::now() - begun) > kPipelineTuning.hurry * std::chrono::duration<double>(deadline - begun);
-  };
   const SearchResult found = search(schedule, budget, evaluate, searching, hurry);
   MeshResult result = evaluator.result(found.best);
   result.report.plan = found.plan.name;

@@ -104,8 +104,33 @@ std::vector<LabelVariant> Structures::label_order() {
   } catch (const StageFailed&) {
     return {LabelVariant{}};
   }
-  if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
+  const Structure& first = built({.labels = order.front()});
+  if (in_doubt(first)) sort_by_map(order);
+  if (first.failure || first.flipped > 0) prefer_facing(order);
   return order;
+}
+
+// Where the map of the first turns tets over, and regions of it stand square to their label's axis: those with fewer such regions and other frames, if nothing
+// else is wrong with them, by the tets that their maps turn over.
+void Structures::prefer_facing(std::vector<LabelVariant>& order) {
+  LabelChoice& choice = labellings(1);
+  const auto labelled = [&](const LabelVariant& v) -> const Labelled& {
+    return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
+  };
+  const Labelled& first = labelled(order.front());
+  if (first.report.folded_regions == 0) return;
+  std::vector<LabelVariant> more{order.front()};
+  for (const LabelVariant& v : choice.facing()) {
+    const Labelled& l = labelled(v);
+    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && more.size() < kMapped) more.push_back(v);
+  }
+  const auto key = [&](const LabelVariant& v) {
+    const Structure& s = built({.labels = v});
+    return std::tuple(s.failure.has_value(), s.flipped, s.distortion);
+  };
+  std::stable_sort(more.begin(), more.end(), [&](const LabelVariant& x, const LabelVariant& y) { return key(x) < key(y); });
+  order.erase(order.begin());
+  order.insert(order.begin(), more.begin(), more.end());
 }
 
 const Labelled& Structures::labelled() {

@@ -81,8 +81,9 @@ class Structures {
 
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
-  /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps. As
-  /// they come where there is no tet mesh to judge them on.
+  /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps; where
+  /// it turns over any, and a face stands square to its label's axis, those with fewer such faces too. As they come where there is no tet mesh to judge them
+  /// on.
   std::vector<LabelVariant> label_order();
   /// The first of LabelChoice's order, whatever its map. Throws StageFailed where there is no tet mesh.
   const Labelled& labelled();
@@ -95,6 +96,7 @@ class Structures {
 
  private:
   LabelChoice& labellings(double tet_size);
+  void prefer_facing(std::vector<LabelVariant>& order);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
   const Structure& built(const StructurePlan& plan);

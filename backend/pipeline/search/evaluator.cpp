@@ -442,7 +442,9 @@ class Evaluator::Work {
     }
     if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
     const std::vector<FitCandidate> candidates = candidates_of(choices);
-    const auto good = [&](std::size_t i, const FitReport& r) { return r.inverted == 0 && good_cells(score_of(r.min_scaled_jacobian, choices[i])); };
+    const auto good = [&](std::size_t i, const FitReport& r) {
+      return r.inverted == 0 && (good_cells(score_of(r.min_scaled_jacobian, choices[i])) || own_.hurry_());
+    };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options(), fits_left_, good, monitor_); });
     const std::size_t chosen = best.index;
     fits_left_ -= best.fitted;
@@ -491,7 +493,8 @@ class Evaluator::Work {
   double grid_share_ = 1;   // of the grid's cells among all, where a number of them is asked for
 };
 
-Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor)
+Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor,
+                     std::function<bool()> hurry)
     : pose_(pose),
       model_(pose.model),
       options_(options),
@@ -500,7 +503,8 @@ Evaluator::Evaluator(const Pose& pose, const MeshOptions& options, Structures& s
       ignored_(smooth_edges(model_, options.feature_angle * std::numbers::pi / 180, options.keep_faces)),
       threads_(thread_count(options.threads)),
       clock_(clock),
-      structures_(structures) {}
+      structures_(structures),
+      hurry_(std::move(hurry)) {}
 
 Evaluator::~Evaluator() = default;
 

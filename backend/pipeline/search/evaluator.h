@@ -1,6 +1,8 @@
 // A plan through the real stages.
 #pragma once
 
+#include <functional>
+
 #include "pipeline/pipeline.h"
 #include "pipeline/pose.h"
 #include "pipeline/search/search.h"
@@ -11,8 +13,10 @@ namespace polycube {
 /// The real stages behind Evaluate (search.h), on what the structures hold.
 class Evaluator {
  public:
-  /// Works in the pose; `options` are those of the pose too. Keeps references to all of them.
-  Evaluator(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor);
+  /// Works in the pose; `options` are those of the pose too. Keeps references to all of them. While `hurry` holds any valid mesh is good enough.
+  Evaluator(
+      const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, const Monitor& monitor,
+      std::function<bool()> hurry = [] { return false; });
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
   ~Evaluator();
@@ -43,6 +47,7 @@ class Evaluator {
   int threads_;
   StageClock& clock_;
   Structures& structures_;
+  std::function<bool()> hurry_;
   double gate_seconds_ = 0;
   std::vector<BoundedGrid> bounded_grids_;  // of plans done
 };

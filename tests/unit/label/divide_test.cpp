@@ -23,13 +23,56 @@ TetMesh tets_of(const CadModel& model) {
 
 TEST(PlaneCuts, DivideBetweenTheAxesThatThePlaneFaces) {
   const Vec3 oblique = Vec3(1, 1, 1).normalized(), slope = Vec3(1, 0, 1).normalized();
-  EXPECT_EQ(plane_cuts(oblique).size(), 10u);
-  ASSERT_EQ(plane_cuts(slope).size(), 3u);
-  EXPECT_TRUE(plane_cuts(Vec3::UnitZ()).empty());
-  for (const FaceCut& c : plane_cuts(slope)) {
+  EXPECT_EQ(plane_cuts(oblique, {}).size(), 10u);
+  ASSERT_EQ(plane_cuts(slope, {}).size(), 3u);
+  EXPECT_TRUE(plane_cuts(Vec3::UnitZ(), {}).empty());
+  for (const FaceCut& c : plane_cuts(slope, {})) {
     EXPECT_NEAR(c.across.dot(slope), 0, 1e-12);
     EXPECT_NEAR(c.across[1], 0, 1e-12);  // the line runs along y
   }
+}
+
+TEST(PlaneCuts, DivideBetweenVerticesThatLeaveRoom) {
+  const Vec3 slope = Vec3(1, 0, 1).normalized(), across = plane_cuts(slope, {}).front().across;
+  std::vector<Vec3> vertices;
+  for (const double at : {0.0, 10.0, 2.0, 2.5, 10.0}) vertices.emplace_back(at * across + Vec3(0, 3, 0));
+  const std::vector<FaceCut> cuts = plane_cuts(slope, vertices);
+  ASSERT_EQ(cuts.size(), 5u);
+  EXPECT_NEAR(cuts[3].share, 0.1, 1e-12);
+  EXPECT_NEAR(cuts[4].share, 0.625, 1e-12);
+  for (std::size_t i = 0; i < cuts.size(); ++i) EXPECT_EQ(cuts[i].exact, i >= 3);
+}
+
+TEST(CutFaces, LeavesNoTriangleOnBothSidesAndTheRestAlone) {
+  const CadModel model = CadModel::from_brep(shapes::chamfered_box(10, 4));
+  const TetMesh before = tets_of(model);
+  int bevel = 0;
+  for (const int f : model.faces()) bevel = model.face(f).axis.cwiseAbs().maxCoeff() < 0.9 ? f : bevel;
+  ASSERT_GT(bevel, 0);
+  std::vector<FaceCut> cuts(static_cast<std::size_t>(model.face_count()) + 1);
+  cuts[bevel] = {Vec3(1, -1, 0).normalized(), 0.03, false, true};
+  const TetMesh mesh = cut_faces(before, cuts, Mat3::Identity(), Monitor());
+  EXPECT_GT(mesh.triangles.size(), before.triangles.size());
+  double low = std::numeric_limits<double>::infinity(), high = -low, narrow = 0;
+  const auto along = [&](int n) { return cuts[bevel].across.dot(mesh.points[n]); };
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (mesh.triangle_face[t] != bevel) continue;
+    for (int n : mesh.triangles[t]) {
+      low = std::min(low, along(n));
+      high = std::max(high, along(n));
+    }
+  }
+  const double middle = low + 0.03 * (high - low);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (mesh.triangle_face[t] != bevel) continue;
+    const auto [least, most] = std::minmax({along(a), along(b), along(c)});
+    EXPECT_TRUE(least > middle - 1e-9 || most < middle + 1e-9);
+    if (most < middle + 1e-9) narrow += (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]).norm() / 2;
+  }
+  EXPECT_NEAR(narrow, 0.03 * 10 * std::sqrt(2.0) * 4, 1e-6);
+  for (std::size_t f = 1; f < cuts.size(); ++f) cuts[f] = {};
+  EXPECT_EQ(cut_faces(before, cuts, Mat3::Identity(), Monitor()).points.size(), before.points.size());
 }
 
 TEST(Thirds, FaceTheirAxesAndMeetInTheMiddle) {

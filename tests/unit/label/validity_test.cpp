@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/charts.h"
@@ -96,6 +97,37 @@ TEST(Validity, AnyOtherLabelOfOneRegionOfACubeIsFound) {
       EXPECT_GT(violations(v, wrong).score, 0) << "region " << r << " label " << l;
     }
   }
+}
+
+TEST(Validity, ARegionThatFacesAwayFromItsLabelFoldsWhereItsNormalIsKnown) {
+  const Voxels v = voxels({{0, 0, 0}});
+  RegionGraph g = build_region_graph(v.mesh, v.region);
+  EXPECT_EQ(find_violations(g, v.mesh.points, v.label, 0.1).folded_regions, 0);
+  for (std::size_t r = 0; r < g.regions.size(); ++r) {
+    const Vec3 own = label_sign(v.label[r]) * Vec3::Unit(label_axis(v.label[r])), other = own.cross(Vec3(1, 2, 3)).normalized();
+    for (const double degrees : {0.0, 45.0, 80.0, 89.0, 90.0, 180.0}) {
+      const double angle = degrees * std::numbers::pi / 180;
+      g.regions[r].normal = std::cos(angle) * own + std::sin(angle) * other;
+      const Violations found = find_violations(g, v.mesh.points, v.label, 0.1);
+      EXPECT_EQ(found.folded_regions, degrees > 85 ? 1 : 0) << degrees;
+      EXPECT_EQ(found.score > 0, degrees > 85);
+      EXPECT_TRUE(found.valid());
+      EXPECT_EQ(found.sound(), degrees < 85);
+      EXPECT_EQ(found.regions.size(), degrees > 85 ? 5u : 0u);  // it and the four beside it
+    }
+    g.regions[r].normal.setZero();
+  }
+}
+
+TEST(Validity, FoldedPartsOfFacesAreCountedOnTheTrianglesToo) {
+  const Voxels v = voxels({{0, 0, 0}});
+  std::vector<int> labels;
+  for (int r : v.region) labels.push_back(v.label[r]);
+  EXPECT_EQ(find_violations(v.mesh, Mat3::Identity(), labels).folded_regions, 0);
+  for (int& l : labels) l = l == 4 ? 0 : l;  // the top joins the side +X
+  const Violations found = find_violations(v.mesh, Mat3::Identity(), labels);
+  EXPECT_EQ(found.folded_regions, 1);
+  EXPECT_EQ(found.score, find_violations(chart_graph(v.mesh, Mat3::Identity(), labels).graph, v.mesh.points, {0, 1, 2, 3, 5}, 0.1).score);
 }
 
 TEST(Validity, ABoundaryThatGoesDownAndUpAgainHasATurningPoint) {

@@ -85,5 +85,19 @@ TEST(DrilledBlock, EdgesThatEndAtChartsAskNothing) {
   EXPECT_TRUE(room_for_edges(edge_chains(model, part.tets), part.tets, part.map, extract_blocks(part.tets, part.map, Monitor())).empty());
 }
 
+// A hexagonal tunnel that breaks a little into the floor of a triangular one: the side of the one is opposite to the floor of the other, unless the floor has a
+// narrow strip of another label beside the mouth. Found in a machined block.
+TEST(CrossingTunnels, AFloorIsDividedBesideTheMouthThatBreaksIntoIt) {
+  const shapes::Prism triangular{2, {{2.63, 6.48}, {3.88, 4.74}, {4.9, 6.38}}, 0, 10};
+  const shapes::Prism hexagonal{1, {{7.33, 1.27}, {7.69, 2.2}, {7.06, 2.98}, {6.07, 2.82}, {5.71, 1.88}, {6.34, 1.11}}, 0, 10};
+  const CadModel model = CadModel::from_brep(shapes::machined_box(10, {triangular, hexagonal}));
+  MeshOptions options;
+  options.size = 0.7;
+  const MeshResult result = mesh(model, options, Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_EQ(result.report.capture.faces_captured, result.report.capture.faces);
+  EXPECT_GT(result.report.quality.min_scaled_jacobian, 0.2);
+}
+
 }  // namespace
 }  // namespace polycube

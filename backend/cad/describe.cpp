@@ -159,6 +159,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
     g.domain.extend(segment.a);
     g.domain.extend(segment.b);
   }
+  g.border_grid = BorderGrid(g.border);
 }
 
 FaceGeometry face_geometry(const TopoDS_Face& face) {

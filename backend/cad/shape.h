@@ -19,6 +19,7 @@
 #include <gp_Torus.hxx>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <variant>
 
 #include "cad/cad.h"
@@ -36,6 +37,22 @@ struct BorderSegment {
   double margin = 0;
   int edge = 0;           ///< CAD edge, 0 where the segment is no border in space (seam, pole, gap)
   bool interior = false;  ///< seam or pole: the face goes on beyond it
+};
+
+/// Squares of (u, v) that no border passes are inside or outside as a whole: most questions need no look at the border.
+class BorderGrid {
+ public:
+  BorderGrid() = default;
+  /// Of a border whose pieces are too few to be worth it, nothing is known.
+  explicit BorderGrid(const std::vector<BorderSegment>& border);
+  /// Empty where a border is near, and outside of its box.
+  std::optional<bool> inside(const Vec2& uv) const;
+
+ private:
+  enum class Cell : char { kFar, kNear, kInside, kOutside };
+  Eigen::AlignedBox2d box_;
+  int count_ = 0;  // cells along each side
+  std::vector<Cell> cells_;
 };
 
 /// One edge in one face, with the curve in (u, v) and the direction along which the face lies to the left of it.
@@ -56,6 +73,7 @@ struct FaceGeometry {
   Eigen::AlignedBox2d domain;                ///< box of the trimmed domain
   int wires = 0;
   std::vector<BorderSegment> border;
+  BorderGrid border_grid;
   std::vector<int> border_edges;  ///< edges that bound the face in space: no seams, no degenerate ones
   std::vector<Vec2> tips;         ///< (u, v) at degenerate edges: cone tips, poles
   std::vector<Vec3> samples;      ///< points of the trimmed face where there is no closed form
@@ -167,6 +185,8 @@ Vec2 foot_on_surface(const FaceGeometry& face, const Vec3& p, const Vec2& seed, 
 Vec2 wrap(const FaceGeometry& face, const Vec2& uv);
 /// Whether the surface's point at wrapped `uv` belongs to the trimmed face.
 bool inside(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv);
+/// The same by every piece of the border.
+bool inside_by_border(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv);
 /// Unit du x dv, also at poles.
 Vec3 surface_normal(const FaceGeometry& face, const Vec2& uv);
 EdgePoint nearest_on_edge(const EdgeGeometry& edge, const Vec3& p, const double* seed);

@@ -2,6 +2,7 @@
 // segment's margin the border curve itself decides, so the answer is exact up to rounding.
 #include <BRepClass_FaceClassifier.hxx>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "cad/shape.h"
@@ -9,11 +10,39 @@
 namespace polycube {
 namespace {
 
+// Fewer pieces are looked at in no time (guess); a cell a side for so many pieces, within bounds that keep a grid below 4 KB.
+constexpr std::size_t kFewPieces = 12;
+constexpr int kPiecesACell = 3, kFewestCells = 8, kMostCells = 64;
+// Of the box: so far off rounding may take a point beside a border.
+constexpr double kRounding = 1e-9;
+
 double squared_distance(const BorderSegment& segment, const Vec2& uv) {
   const Vec2 d = segment.b - segment.a;
   const double length = d.squaredNorm();
   const double t = length > 0 ? std::clamp((uv - segment.a).dot(d) / length, 0.0, 1.0) : 0.0;
   return (segment.a + t * d - uv).squaredNorm();
+}
+
+// Whether the ray from `uv` along u meets the segment.
+bool crosses(const BorderSegment& segment, const Vec2& uv) {
+  if ((segment.a[1] <= uv[1]) == (segment.b[1] <= uv[1])) return false;
+  return segment.a[0] + (uv[1] - segment.a[1]) / (segment.b[1] - segment.a[1]) * (segment.b[0] - segment.a[0]) > uv[0];
+}
+
+// Whether some of the segment is in the box: clipped by its sides one after the other (Liang, Barsky 1984).
+bool passes(const BorderSegment& segment, const Eigen::AlignedBox2d& box) {
+  double from = 0, to = 1;
+  const Vec2 way = segment.b - segment.a;
+  for (int d = 0; d < 2; ++d) {
+    const double low = box.min()[d] - segment.a[d], high = box.max()[d] - segment.a[d];
+    if (way[d] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    from = std::max(from, std::min(low / way[d], high / way[d]));
+    to = std::min(to, std::max(low / way[d], high / way[d]));
+  }
+  return from <= to;
 }
 
 bool classify_slowly(const FaceGeometry& face, const Vec2& uv) {
@@ -48,17 +77,68 @@ bool left_of_border(const CadModel::Shape& shape, const FaceGeometry& face, cons
 
 }  // namespace
 
+BorderGrid::BorderGrid(const std::vector<BorderSegment>& border) {
+  if (border.size() < kFewPieces) return;
+  for (const BorderSegment& s : border) {
+    box_.extend(s.a);
+    box_.extend(s.b);
+  }
+  const Vec2 size = box_.sizes();
+  if (!(size.minCoeff() > 0)) return;
+  count_ = std::clamp(static_cast<int>(border.size()) / kPiecesACell, kFewestCells, kMostCells);
+  const Vec2 step = size / count_;
+  cells_.assign(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_), Cell::kFar);
+  const auto cell = [&](int i, int j) -> Cell& { return cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(i)]; };
+  for (const BorderSegment& s : border) {
+    const Vec2 reach = Vec2::Constant(s.margin) + kRounding * size;
+    const Eigen::AlignedBox2d round(s.a.cwiseMin(s.b) - reach, s.a.cwiseMax(s.b) + reach);
+    const auto first = [&](int d) { return std::clamp(static_cast<int>(std::floor((round.min()[d] - box_.min()[d]) / step[d])), 0, count_ - 1); };
+    const auto last = [&](int d) { return std::clamp(static_cast<int>(std::floor((round.max()[d] - box_.min()[d]) / step[d])), 0, count_ - 1); };
+    for (int j = first(1); j <= last(1); ++j) {
+      for (int i = first(0); i <= last(0); ++i) {
+        const Vec2 low = box_.min() + Vec2(i * step[0], j * step[1]);
+        if (passes(s, {low - reach, low + step + reach})) cell(i, j) = Cell::kNear;
+      }
+    }
+  }
+  // A far cell is as the one before it in its row or below it, if that is far too: no border lies between them.
+  for (int j = 0; j < count_; ++j) {
+    for (int i = 0; i < count_; ++i) {
+      if (cell(i, j) == Cell::kNear) continue;
+      if (i > 0 && cell(i - 1, j) != Cell::kNear) {
+        cell(i, j) = cell(i - 1, j);
+      } else if (j > 0 && cell(i, j - 1) != Cell::kNear) {
+        cell(i, j) = cell(i, j - 1);
+      } else {
+        const Vec2 middle = box_.min() + Vec2((i + 0.5) * step[0], (j + 0.5) * step[1]);
+        const auto crossings = std::count_if(border.begin(), border.end(), [&](const BorderSegment& s) { return crosses(s, middle); });
+        cell(i, j) = crossings % 2 == 1 ? Cell::kInside : Cell::kOutside;
+      }
+    }
+  }
+}
+
+std::optional<bool> BorderGrid::inside(const Vec2& uv) const {
+  if (count_ == 0 || !box_.contains(uv)) return {};
+  const Vec2 at = (uv - box_.min()).cwiseQuotient(box_.sizes()) * count_;
+  const int i = std::min(static_cast<int>(at[0]), count_ - 1), j = std::min(static_cast<int>(at[1]), count_ - 1);
+  const Cell cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(i)];
+  if (cell == Cell::kNear) return {};
+  return cell == Cell::kInside;
+}
+
 bool inside(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv) {
+  const std::optional<bool> known = face.border_grid.inside(uv);
+  return known && !face.border_edges.empty() ? *known : inside_by_border(shape, face, uv);
+}
+
+bool inside_by_border(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv) {
   if (face.border_edges.empty()) return true;
   int crossings = 0;
   std::vector<int> near;
   bool on_seam = false;
   for (const BorderSegment& segment : face.border) {
-    const bool below_a = segment.a[1] <= uv[1], below_b = segment.b[1] <= uv[1];
-    if (below_a != below_b) {
-      const double u = segment.a[0] + (uv[1] - segment.a[1]) / (segment.b[1] - segment.a[1]) * (segment.b[0] - segment.a[0]);
-      if (u > uv[0]) ++crossings;
-    }
+    if (crosses(segment, uv)) ++crossings;
     const bool real = segment.edge != 0 && (near.empty() || near.back() != segment.edge);
     if ((!real && !segment.interior) || squared_distance(segment, uv) > segment.margin * segment.margin) continue;
     if (real) near.push_back(segment.edge);

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "cad/cad.h"
+#include "cad/shape.h"
 #include "support/shapes.h"
 
 namespace polycube {
@@ -68,6 +69,28 @@ bool near_an_edge(const CadModel& model, const Vec3& p) {
   for (int e = 1; e <= model.edge_count(); ++e)
     if (!model.edge(e).seam && model.project_to_edge(e, p).distance < 2e-3) return true;
   return false;
+}
+
+// Every question that the grid answers it answers as the border does, piece by piece.
+TEST(BorderGrid, AgreesWithTheBorder) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-0.05, 1.05);
+  int answered = 0, asked = 0;
+  for (const Case& c : cases()) {
+    const CadModel model = CadModel::from_brep(c.brep);
+    for (const int f : model.faces()) {
+      const FaceGeometry& face = model.shape().face(f);
+      for (int i = 0; i < 400; ++i) {
+        const Vec2 uv = face.domain.min() + Vec2(unit(random), unit(random)).cwiseProduct(face.domain.sizes());
+        const std::optional<bool> known = face.border_grid.inside(uv);
+        ++asked;
+        if (!known || face.border_edges.empty()) continue;
+        ++answered;
+        EXPECT_EQ(*known, inside_by_border(model.shape(), face, uv)) << c.name << " face " << f << " at " << uv.transpose();
+      }
+    }
+  }
+  EXPECT_GT(answered, asked / 8);
 }
 
 TEST(Project, FacesAgreeWithOcctExtrema) {

@@ -6,15 +6,10 @@
 #include <limits>
 
 #include "cad/shape.h"
+#include "cad/tuning.h"
 
 namespace polycube {
 namespace {
-
-// Fewer pieces are looked at in no time (guess); a cell a side for so many pieces, within bounds that keep a grid below 4 KB.
-constexpr std::size_t kFewPieces = 12;
-constexpr int kPiecesACell = 3, kFewestCells = 8, kMostCells = 64;
-// Of the box: so far off rounding may take a point beside a border.
-constexpr double kRounding = 1e-9;
 
 double squared_distance(const BorderSegment& segment, const Vec2& uv) {
   const Vec2 d = segment.b - segment.a;
@@ -78,19 +73,19 @@ bool left_of_border(const CadModel::Shape& shape, const FaceGeometry& face, cons
 }  // namespace
 
 BorderGrid::BorderGrid(const std::vector<BorderSegment>& border) {
-  if (border.size() < kFewPieces) return;
+  if (std::ssize(border) < kCadTuning.few_pieces) return;
   for (const BorderSegment& s : border) {
     box_.extend(s.a);
     box_.extend(s.b);
   }
   const Vec2 size = box_.sizes();
   if (!(size.minCoeff() > 0)) return;
-  count_ = std::clamp(static_cast<int>(border.size()) / kPiecesACell, kFewestCells, kMostCells);
+  count_ = std::clamp(static_cast<int>(border.size()) / kCadTuning.pieces_a_cell, kCadTuning.fewest_cells, kCadTuning.most_cells);
   const Vec2 step = size / count_;
   cells_.assign(static_cast<std::size_t>(count_) * static_cast<std::size_t>(count_), Cell::kFar);
   const auto cell = [&](int i, int j) -> Cell& { return cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(count_) + static_cast<std::size_t>(i)]; };
   for (const BorderSegment& s : border) {
-    const Vec2 reach = Vec2::Constant(s.margin) + kRounding * size;
+    const Vec2 reach = Vec2::Constant(s.margin) + kCadTuning.border_rounding * size;
     const Eigen::AlignedBox2d round(s.a.cwiseMin(s.b) - reach, s.a.cwiseMax(s.b) + reach);
     const auto first = [&](int d) { return std::clamp(static_cast<int>(std::floor((round.min()[d] - box_.min()[d]) / step[d])), 0, count_ - 1); };
     const auto last = [&](int d) { return std::clamp(static_cast<int>(std::floor((round.max()[d] - box_.min()[d]) / step[d])), 0, count_ - 1); };

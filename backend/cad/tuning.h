@@ -33,7 +33,19 @@ struct CadTuning {
   /// Newton's steps of a projection. Guess.
   int newton_steps = 60;
 
-  POLYCUBE_ENTRIES(overlap, gap, border_pieces, edge_samples, face_samples, angle_samples, angular, linear, tip_offset, tip_angle, tiny_edge, newton_steps)
+  /// Pieces of a border below which a look at all of them is quick enough. Guess.
+  int few_pieces = 12;
+  /// Pieces for a cell along each side of a border's grid. Guess.
+  int pieces_a_cell = 3;
+  /// Cells along each side of it, at least. Guess.
+  int fewest_cells = 8;
+  /// Cells along each side of it, at most. Guess: 4 KB.
+  int most_cells = 64;
+  /// Of the box of a border: so far off rounding may take a point beside it. Theory: a million times the rounding of doubles.
+  double border_rounding = 1e-9;
+
+  POLYCUBE_ENTRIES(overlap, gap, border_pieces, edge_samples, face_samples, angle_samples, angular, linear, tip_offset, tip_angle, tiny_edge, newton_steps,
+                   few_pieces, pieces_a_cell, fewest_cells, most_cells, border_rounding)
 };
 
 inline constexpr const CadTuning& kCadTuning = tuning_in_force<CadTuning>;

@@ -122,7 +122,7 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   std::vector<LabelVariant> more{order.front()};
   for (const LabelVariant& v : choice.facing()) {
     const Labelled& l = labelled(v);
-    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && more.size() < kMapped) more.push_back(v);
+    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && more.size() < kPipelineTuning.mapped) more.push_back(v);
   }
   const auto key = [&](const LabelVariant& v) {
     const Structure& s = built({.labels = v});

@@ -119,11 +119,17 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   };
   const Labelled& first = labelled(order.front());
   if (first.report.folded_regions == 0) return;
-  std::vector<LabelVariant> more{order.front()};
+  std::vector<LabelVariant> more;
   for (const LabelVariant& v : choice.facing()) {
     const Labelled& l = labelled(v);
-    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && more.size() < kPipelineTuning.mapped) more.push_back(v);
+    const auto is_the_same = [&](const LabelVariant& other) { return other.frame == v.frame && labelled(other).labelling.label == l.labelling.label; };
+    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && std::none_of(more.begin(), more.end(), is_the_same))
+      more.push_back(v);
   }
+  std::stable_sort(more.begin(), more.end(),
+                   [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_regions < labelled(y).report.folded_regions; });
+  more.insert(more.begin(), order.front());
+  more.resize(std::min(more.size(), kPipelineTuning.mapped));
   const auto key = [&](const LabelVariant& v) {
     const Structure& s = built({.labels = v});
     return std::tuple(s.failure.has_value(), s.flipped, s.distortion);

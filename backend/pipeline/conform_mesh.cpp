@@ -38,9 +38,9 @@ namespace {
 
 // Labellings that are tried until one has a complete mesh with good cells, and paddings of each that are fitted (as a quick search of one solid tries).
 constexpr int kLabellings = 4;
+constexpr int kFits = 3;
 // Where none of them has a mesh: how much finer the grid is made, on the first one that came to blocks (as for one solid, search/evaluator.cpp).
 constexpr std::array kFiner{1.25, 1.6, 2.0};
-constexpr int kFits = 3;
 // Ways to lay layers through several solids that are fitted (on 8 parts the first was the best each time).
 constexpr std::size_t kAcross = 1;
 // eta of section 6.2 for the coarsest mesh.
@@ -91,6 +91,7 @@ struct Draft {
   Quantization quantization;
   int charts = 0, blocks = 0;
   double grid_hexes = 0;  ///< before padding
+  double finer = 1;       ///< than asked for
   int lost() const {
     int sum = 0;
     for (const PaddedMesh& s : solids) sum += static_cast<int>(s.association.lost_edges.size());
@@ -113,7 +114,7 @@ class Conformer {
     int tried = 0, first = -1;
     for (std::size_t i = 0; i < kLabellings + kFiner.size(); ++i) {
       const bool finer = i >= kLabellings;
-      if (finer && (best || first < 0)) break;
+      if (finer && (best || first < 0 || options_.coarsest)) break;
       try {
         ++tried;
         const ConformalStructure* structure = structures_.structure(finer ? first : static_cast<int>(i), clock_, monitor_);
@@ -251,6 +252,16 @@ class Conformer {
     if (next && unmet(next->before_refining()).size() < unmet(draft.before_refining()).size()) draft = std::move(*next);
   }
 
+  bool has_face(std::size_t s, int face) const {
+    const std::vector<int>& faces = assembly_.solids[static_cast<std::size_t>(model_.numbers[s]) - 1].faces();
+    return std::binary_search(faces.begin(), faces.end(), face);
+  }
+  bool is_first_with(int face, std::size_t s) const {
+    for (std::size_t before = 0; before < s; ++before)
+      if (has_face(before, face)) return false;
+    return has_face(s, face);
+  }
+
   /// The first solid that has what a division is of, in all.
   bool is_of(const Division& d, std::size_t s) const {
     const auto owns = [&](std::size_t solid) {
@@ -338,6 +349,7 @@ class Conformer {
     });
     monitor_.log("hex: " + std::to_string(base.s.blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
     draft.grid_hexes = static_cast<double>(hexes.mesh.hexes.size());
+    draft.finer = finer_;
     draft.charts = static_cast<int>(base.s.map.charts.size());
     draft.blocks = static_cast<int>(base.s.blocks.blocks.size());
     std::vector<int> hex_solid;
@@ -545,7 +557,7 @@ class Conformer {
   }
 
   /// Layers of each solid on top of those through several; none where no solid has any.
-  std::optional<PaddedGrids> pad_each(const PaddedGrids& across) {
+  std::optional<PaddedGrids> pad_each(const PaddedGrids& across) const try {
     PaddedGrids result;
     std::vector<SolidGrid> grids(across.solids.size());
     bool more = false;
@@ -565,6 +577,9 @@ class Conformer {
     if (!more) return std::nullopt;
     result.joined = join_grids(model_, grids, result.solids, across.joined.whole.mesh.points.size());
     return result;
+  } catch (const StageFailed& e) {
+    monitor_.log("conform: layers of each solid on those through several: " + std::string(e.what()));
+    return std::nullopt;
   }
 
   static std::vector<FitCandidate> candidates_of(std::vector<PaddedGrids>& choices) {
@@ -608,6 +623,7 @@ class Conformer {
     complete(first, result.fem);
     first.nodes = nodes;
     first.stages = clock_.records();
+    if (draft.finer > 1) first.warnings.push_back("the cells are finer than asked for");
     const std::vector<std::string> lines = unmet(draft.solids);
     first.warnings.insert(first.warnings.end(), lines.begin(), lines.end());
     first.warnings.insert(first.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());
@@ -657,6 +673,10 @@ class Conformer {
     r.thin_walls = static_cast<int>(short_of.thin_walls.size());
     r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
     for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
+    LocalSizes sizes = options_.sizes;
+    std::erase_if(sizes, [&](const LocalSize& l) { return l.solid > 0 ? l.solid != model_.numbers[s] : !is_first_with(l.face, s); });
+    const auto other_sizes = unmet_sizes(own.mesh, by_number, sizes);
+    r.warnings.insert(r.warnings.end(), other_sizes.begin(), other_sizes.end());
     r.loose_nodes = count_loose_nodes(model, own.association, own.mesh.points);
     for (const int e : r.capture.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
     const auto one = merged_faces(r.capture, by_number);

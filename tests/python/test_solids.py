@@ -204,6 +204,12 @@ class Conform(ConformTest):
         ball = Part.makeSphere(3, VECTOR(5, 5, 5))
         self.check(Part.Compound([Part.makeBox(10, 10, 10).cut(ball), ball]), size=2, volume=0.3)
 
+    def test_a_thin_coat_on_all_sides(self):
+        """Beside the box's edges the nearest triangle of the interface is beyond the edge; the plane tells."""
+        box = Part.makeBox(12, 10, 8)
+        found = self.check(Part.Compound([box, Part.makeBox(12.4, 10.4, 8.4, VECTOR(-0.2, -0.2, -0.2)).cut(box)]), size=0.6, order=1)
+        self.assertGreater(found.scaled_jacobian.min(), 0.99)
+
     def test_halves_of_a_ball(self):
         """Nothing on the outside tells the axes; the face between the halves does."""
         ball = Part.makeSphere(6)

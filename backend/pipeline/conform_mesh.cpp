@@ -115,9 +115,10 @@ class Conformer {
     for (std::size_t i = 0; i < kLabellings + kFiner.size(); ++i) {
       const bool finer = i >= kLabellings;
       if (finer && (best || first < 0 || options_.coarsest)) break;
+      const ConformalStructure* structure = nullptr;
       try {
         ++tried;
-        const ConformalStructure* structure = structures_.structure(finer ? first : static_cast<int>(i), clock_, monitor_);
+        structure = structures_.structure(finer ? first : static_cast<int>(i), clock_, monitor_);
         if (!structure) continue;
         if (first < 0) first = static_cast<int>(i);
         finer_ = finer ? kFiner[i - kLabellings] : 1;
@@ -128,7 +129,7 @@ class Conformer {
         if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kGood) break;
       } catch (const StageFailed& e) {
         monitor_.log("conform: " + e.stage() + ": " + e.what());
-        if (!failure || e.stage() == "interfaces") failure = e;
+        if (!failure || e.stage() == "interfaces") failure = structure ? with_folds(e, *structure) : e;
       } catch (const OutOfTime&) {
         if (!best) throw;
         out_of_time_ = true;
@@ -137,6 +138,14 @@ class Conformer {
     }
     if (!best) throw *failure;
     return finished(*best, tried);
+  }
+
+  /// A failure that names nothing, with the CAD faces where the map folds.
+  static StageFailed with_folds(const StageFailed& failure, const ConformalStructure& structure) {
+    if (!failure.entities().empty() || structure.folded_faces.empty()) return failure;
+    std::vector<CadRef> faces;
+    for (const int f : structure.folded_faces) faces.push_back({2, f});
+    return StageFailed(failure.stage(), std::string(failure.what()) + ": the map folds", faces);
   }
 
   /// Hexahedra of the mesh, without fitting them: those of the first labelling that comes to a grid.

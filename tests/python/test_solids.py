@@ -411,6 +411,16 @@ class Refusals(FolderTest):
         self.assertIn("Edge", message.split("(")[-1])
         self.assertEqual(len(set(mesh(Part.Compound(boxes), size=1, interfaces="separate").hex_solid.tolist())), 4)
 
+    def test_a_map_that_folds_is_told_with_its_faces(self):
+        """A ring in a groove with two sides only, which no polycube has: the sides are named, by the numbers of the shape."""
+        section = Part.Face(Part.makePolygon([VECTOR(10, 0, 3), VECTOR(7, 0, 4.5), VECTOR(10, 0, 6), VECTOR(10, 0, 3)]))
+        ring = section.revolve(VECTOR(), VECTOR(0, 0, 1), 360)
+        shape = Part.Compound([Part.makeCylinder(10, 9).cut(ring), ring])
+        sides = {"Face{}".format(n) for n, one in enumerate(shape.Faces, 1) if one.Surface.TypeId == "Part::GeomCone"}
+        with self.assertRaisesRegex(_polycube.StageFailed, "Solid1, Solid2: .*: the map folds; --interfaces separate") as refusal:
+            mesh(shape, size=2)
+        self.assertTrue(sides & set(refusal.exception.entities))
+
     def test_what_touches_itself_in_a_point(self):
         """A cylinder tangent to the edge of the block below it; a ring tangent to the bolt holes of the plates on both sides."""
         tangent = Part.Compound([Part.makeBox(20, 20, 8), Part.makeCylinder(5, 12, VECTOR(15, 10, 8))])

@@ -106,8 +106,10 @@ std::vector<int> parts_by_interfaces(const Assembly& assembly) {
   return part;
 }
 
-/// Warnings of solids that meet in edges or points and hang together by no interfaces: nothing passes from one to the other.
-std::vector<std::string> bare_contacts(const Assembly& assembly, GeneralFuse& fuse) {
+constexpr const char* kNothingPasses = " alone: they have no nodes in common, and no load passes from one to the other";
+
+/// Warns of solids that meet in edges or vertices and hang together by no interfaces: nothing passes from one to the other. Returns their pairs.
+std::set<std::array<int, 2>> tell_bare_contacts(Assembly& assembly, GeneralFuse& fuse) {
   std::map<std::array<int, 2>, CadRef> found;  // the first edge, or else vertex, of the pair
   for (const int dim : {1, 0}) {
     TopTools_IndexedMapOfShape pieces;
@@ -130,13 +132,13 @@ std::vector<std::string> bare_contacts(const Assembly& assembly, GeneralFuse& fu
           if (a < b) found.try_emplace({a, b}, entity);
   }
   const std::vector<int> part = parts_by_interfaces(assembly);
-  std::vector<std::string> warnings;
+  std::set<std::array<int, 2>> pairs;
   for (const auto& [pair, entity] : found) {
+    pairs.insert(pair);
     if (part[static_cast<std::size_t>(pair[0])] == part[static_cast<std::size_t>(pair[1])]) continue;
-    warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " meet in " + name(entity) +
-                       " alone: they have no nodes in common, and no load passes from one to the other");
+    assembly.warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " meet in " + name(entity) + kNothingPasses);
   }
-  return warnings;
+  return pairs;
 }
 
 /// Whether the box of a solid comes near that of another at all.
@@ -149,19 +151,22 @@ bool may_touch(const std::vector<CadModel>& solids) {
   return false;
 }
 
-void find_touching(Assembly& assembly, const Monitor& monitor) {
-  if (!may_touch(assembly.solids)) return;
+/// Returns the pairs that meet in edges or vertices.
+std::set<std::array<int, 2>> find_touching(Assembly& assembly, const Monitor& monitor) {
+  std::set<std::array<int, 2>> meeting;
+  if (!may_touch(assembly.solids)) return meeting;
   try {
     catching_faults([&] {
       GeneralFuse fuse(assembly.solids, monitor);
       refuse_overlaps(assembly, fuse);
       assembly.interfaces = find_interfaces(assembly.solids, fuse);
-      for (std::string& line : bare_contacts(assembly, fuse)) assembly.warnings.push_back(std::move(line));
+      meeting = tell_bare_contacts(assembly, fuse);
     });
   } catch (const Standard_Failure& failure) {
     monitor.check();
     throw InvalidInput("OpenCASCADE cannot tell where the solids touch: " + reason_of(failure));
   }
+  return meeting;
 }
 
 /// How thick the smallest box along the axes is that both boxes reach over; negative where they are apart.
@@ -169,8 +174,9 @@ double common_thickness(const Eigen::AlignedBox3d& a, const Eigen::AlignedBox3d&
   return (a.max().cwiseMin(b.max()) - a.min().cwiseMax(b.min())).minCoeff();
 }
 
-/// Solids beside each other that all but touch get no common nodes, which is seldom what is wanted.
-void tell_gaps(Assembly& assembly, const Monitor& monitor) {
+/// Solids beside each other that all but touch get no common nodes, which is seldom what is wanted; nor do those that are tangent, of which `meeting` has none.
+void tell_gaps(Assembly& assembly, const std::set<std::array<int, 2>>& meeting, const Monitor& monitor) {
+  const std::vector<int> part = parts_by_interfaces(assembly);
   for (std::size_t a = 0; a < assembly.solids.size(); ++a) {
     for (std::size_t b = a + 1; b < assembly.solids.size(); ++b) {
       const CadModel &one = assembly.solids[a], &other = assembly.solids[b];
@@ -180,7 +186,7 @@ void tell_gaps(Assembly& assembly, const Monitor& monitor) {
       if (std::abs(common_thickness(one.shape().box, other.shape().box)) > reach) continue;
       if (std::any_of(assembly.interfaces.begin(), assembly.interfaces.end(), is_pair)) continue;
       monitor.check();
-      double gap = 0;
+      double gap = -1;
       try {
         catching_faults([&] {
           const BRepExtrema_DistShapeShape distance(one.shape().shape, other.shape().shape);
@@ -192,6 +198,8 @@ void tell_gaps(Assembly& assembly, const Monitor& monitor) {
       if (gap > Precision::Confusion() && gap <= reach)
         assembly.warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " do not touch: they are " + number_text(gap) +
                                     " mm apart, and have no common nodes");
+      if (gap >= 0 && gap <= Precision::Confusion() && !meeting.contains(pair) && part[a + 1] != part[b + 1])
+        assembly.warnings.push_back(assembly.name(pair[0]) + " and " + assembly.name(pair[1]) + " touch in a line or a point" + kNothingPasses);
     }
   }
 }
@@ -222,8 +230,8 @@ Assembly Assembly::of(const FileShape& read, const ReadOptions& options, const M
   if (one) return assembly;
   assembly.warnings = read.warnings;
   assembly.warnings.insert(assembly.warnings.end(), found.warnings.begin(), found.warnings.end());
-  find_touching(assembly, monitor);
-  tell_gaps(assembly, monitor);
+  const std::set<std::array<int, 2>> meeting = find_touching(assembly, monitor);
+  tell_gaps(assembly, meeting, monitor);
   return assembly;
 }
 

@@ -6,9 +6,9 @@
 
 namespace polycube {
 
-std::vector<int> carry_blocks(const HexMesh& mesh, std::vector<int> blocks) {
+std::vector<int> carry_blocks(const HexMesh& mesh, std::vector<int> blocks, const std::set<Quad>& walls) {
   struct Side {
-    std::array<int, 4> face;
+    Quad face;
     int hex;
   };
   std::vector<Side> sides;
@@ -23,7 +23,7 @@ std::vector<int> carry_blocks(const HexMesh& mesh, std::vector<int> blocks) {
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.face != b.face ? a.face < b.face : a.hex < b.hex; });
   std::vector<std::array<int, 2>> adjoining;
   for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    if (sides[i].face == sides[i + 1].face) adjoining.push_back({sides[i].hex, sides[i + 1].hex});
+    if (sides[i].face == sides[i + 1].face && !walls.contains(sides[i].face)) adjoining.push_back({sides[i].hex, sides[i + 1].hex});
   }
   blocks.resize(mesh.hexes.size(), -1);
   for (bool changed = true; changed;) {

@@ -154,6 +154,13 @@ SolidGrid grid_of_solid(const HexComplex& hexes, const std::vector<int>& hex_sol
   std::vector<std::vector<std::pair<int, Vec3>>> middles(own_charts.size());
   for (std::size_t c = 0; c < own_charts.size(); ++c)
     for (const int t : own_charts[c].triangles) middles[c].emplace_back(t, middle(t));
+  constexpr double kOnPlane = 1e-6;  // of the map: nodes are put on a chart's plane to rounding
+  Vec3 low = map.image.front(), high = low;
+  for (const Vec3& p : map.image) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double extent = (high - low).norm();
   for (const auto& [key, face] : faces) {
     if (face.second != 1) continue;
     Quad global = face.first;
@@ -163,13 +170,20 @@ SolidGrid grid_of_solid(const HexComplex& hexes, const std::vector<int>& hex_sol
       centre += hexes.param[n] / 4;
     }
     const auto at = outer.find(sorted(global));
+    // What is no outer quad is on an interface: charts of sign 0 with triangles, of which the plane tells too. Beside an edge the nearest triangle may be
+    // beyond it.
+    const auto off_plane = [&](const Chart& c) {
+      double most = 0;
+      for (const int n : global) most = std::max(most, std::abs(hexes.param[n][c.axis] - c.value));
+      return most;
+    };
     int chart = at == outer.end() ? -1 : hexes.quad_chart[at->second], triangle = -1;
-    double least = std::numeric_limits<double>::infinity();
+    std::pair<double, double> least{std::numeric_limits<double>::infinity(), 0};
     for (std::size_t c = 0; c < own_charts.size(); ++c) {
-      // What is no outer quad is on an interface: charts of sign 0 with triangles.
-      if (at == outer.end() ? own_charts[c].sign != 0 : static_cast<int>(c) != hexes.quad_chart[at->second]) continue;
+      if (middles[c].empty() || (at == outer.end() ? own_charts[c].sign != 0 : static_cast<int>(c) != hexes.quad_chart[at->second])) continue;
+      const double off = at == outer.end() ? off_plane(own_charts[c]) : 0;
       for (const auto& [t, place] : middles[c]) {
-        const double distance = (place - centre).squaredNorm();
+        const std::pair distance{off > kOnPlane * extent ? off : 0, (place - centre).squaredNorm()};
         if (distance >= least) continue;
         least = distance;
         triangle = t;

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -77,6 +78,7 @@ struct Draft {
   Quantization quantization;
   int charts = 0, blocks = 0;
   double grid_hexes = 0;  ///< before padding
+  double finer = 1;       ///< than asked for
   int lost() const {
     int sum = 0;
     for (const PaddedMesh& s : solids) sum += static_cast<int>(s.association.lost_edges.size());
@@ -96,19 +98,25 @@ class Conformer {
   ConformalMesh run() {
     std::optional<Draft> best;
     std::optional<StageFailed> failure;
-    int tried = 0;
-    for (int i = 0; i < kPipelineTuning.conform_labellings; ++i) {
+    int tried = 0, first = -1;
+    for (int i = 0; i < kPipelineTuning.conform_labellings + static_cast<int>(kSearchTuning.finer.size()); ++i) {
+      const bool finer = i >= kPipelineTuning.conform_labellings;
+      if (finer && (best || first < 0 || options_.coarsest)) break;
+      const ConformalStructure* structure = nullptr;
       try {
         ++tried;
-        const ConformalStructure* structure = structures_.structure(i, clock_, monitor_);
+        structure = structures_.structure(finer ? first : i, clock_, monitor_);
         if (!structure) continue;
+        if (first < 0) first = i;
+        finer_ = finer ? kSearchTuning.finer[static_cast<std::size_t>(i - kPipelineTuning.conform_labellings)] : 1;
+        if (finer) monitor_.log("conform: on a grid that is finer");
         Draft draft = drafted(based(*structure));
         const auto rank = [](const Draft& d) { return std::pair(-d.lost(), d.fitted.min_scaled_jacobian); };
         if (!best || rank(draft) > rank(*best)) best = std::move(draft);
         if (best->lost() == 0 && best->fitted.min_scaled_jacobian >= kSearchTuning.good_scaled_jacobian) break;
       } catch (const StageFailed& e) {
         monitor_.log("conform: " + e.stage() + ": " + e.what());
-        if (!failure || e.stage() == "interfaces") failure = e;
+        if (!failure || e.stage() == "interfaces") failure = structure ? with_folds(e, *structure) : e;
       } catch (const OutOfTime&) {
         if (!best) throw;
         out_of_time_ = true;
@@ -117,6 +125,14 @@ class Conformer {
     }
     if (!best) throw *failure;
     return finished(*best, tried);
+  }
+
+  /// A failure that names nothing, with the CAD faces where the map folds.
+  static StageFailed with_folds(const StageFailed& failure, const ConformalStructure& structure) {
+    if (!failure.entities().empty() || structure.folded_faces.empty()) return failure;
+    std::vector<CadRef> faces;
+    for (const int f : structure.folded_faces) faces.push_back({2, f});
+    return StageFailed(failure.stage(), std::string(failure.what()) + ": the map folds", faces);
   }
 
   /// Hexahedra of the mesh, without fitting them: those of the first labelling that comes to a grid.
@@ -232,6 +248,16 @@ class Conformer {
     if (next && unmet(next->before_refining()).size() < unmet(draft.before_refining()).size()) draft = std::move(*next);
   }
 
+  bool has_face(std::size_t s, int face) const {
+    const std::vector<int>& faces = assembly_.solids[static_cast<std::size_t>(model_.numbers[s]) - 1].faces();
+    return std::binary_search(faces.begin(), faces.end(), face);
+  }
+  bool is_first_with(int face, std::size_t s) const {
+    for (std::size_t before = 0; before < s; ++before)
+      if (has_face(before, face)) return false;
+    return has_face(s, face);
+  }
+
   /// The first solid that has what a division is of, in all.
   bool is_of(const Division& d, std::size_t s) const {
     const auto owns = [&](std::size_t solid) {
@@ -272,8 +298,8 @@ class Conformer {
     auto chains = edge_chains(model_.outer, base.s.tets);
     const MeshOptions demands = by_entity(divisions);
     IntegerOptions wanted;
-    wanted.scale = options_.coarsest ? kSearchTuning.coarsest : 1 / size_;
-    if (options_.hexes > 0) wanted.wanted_cells = share * wanted_cells();
+    wanted.scale = options_.coarsest ? kSearchTuning.coarsest : finer_ / size_;
+    if (options_.hexes > 0) wanted.wanted_cells = share * std::pow(finer_, 3) * wanted_cells();
     wanted.growth = options_.growth;
     wanted.coarsest = options_.coarsest;
     wanted.demanded = [&](double scale) {
@@ -319,6 +345,7 @@ class Conformer {
     });
     monitor_.log("hex: " + std::to_string(base.s.blocks.blocks.size()) + " blocks, " + std::to_string(hexes.mesh.hexes.size()) + " hexes");
     draft.grid_hexes = static_cast<double>(hexes.mesh.hexes.size());
+    draft.finer = finer_;
     draft.charts = static_cast<int>(base.s.map.charts.size());
     draft.blocks = static_cast<int>(base.s.blocks.blocks.size());
     std::vector<int> hex_solid;
@@ -490,8 +517,8 @@ class Conformer {
     return result;
   }
 
-  /// The best of all solids, then the second best of those that have one, and so on; the last is without layers. Then layers through several solids on top of
-  /// the first, or of the last where that has none.
+  /// The best of all solids, then the second best of those that have one, and so on; the last is without layers. Then that one with layers through several
+  /// solids, and with those of each solid on top of them; where there are none of these, layers through several solids on top of the first.
   std::vector<PaddedGrids> paddings(const SolidChoices& choices, std::size_t nodes) {
     std::vector<SolidGrid> grids;
     std::size_t most = 1;
@@ -509,16 +536,46 @@ class Conformer {
       }
       chosen.joined = join_grids(model_, grids, chosen.solids, nodes);
     }
-    clock_.stage("pad", [&] {
-      for (const std::size_t i : std::set<std::size_t>{0, most - 1}) {
-        std::vector<PaddedGrids> across = pad_across(model_, result[i], monitor_);
-        if (across.size() > kPipelineTuning.conform_across) across.resize(kPipelineTuning.conform_across);
-        for (PaddedGrids& one : across) result.push_back(std::move(one));
-        if (!across.empty()) break;
-      }
+    std::vector<PaddedGrids> through = clock_.stage("pad", [&] {
+      std::vector<PaddedGrids> across = pad_across(model_, result.back(), monitor_);
+      if (across.empty() && most > 1) across = pad_across(model_, result.front(), monitor_);
+      if (across.size() > kPipelineTuning.conform_across) across.resize(kPipelineTuning.conform_across);
+      if (across.empty()) return across;
+      std::optional<PaddedGrids> more = pad_each(across.front());
+      if (more) across.push_back(std::move(*more));
+      return across;
     });
-    monitor_.log("conform: " + std::to_string(most) + " paddings of solids, " + std::to_string(result.size() - most) + " through several");
+    monitor_.log("conform: " + std::to_string(most) + " paddings of solids, " + std::to_string(through.size()) + " through several");
+    // Beside them the second best of each solid was never the best of all (on 70 parts), and to look at it costs as much as at the others.
+    if (!through.empty() && most > 2) result.erase(result.begin() + 1, result.end() - 1);
+    std::move(through.begin(), through.end(), std::back_inserter(result));
     return result;
+  }
+
+  /// Layers of each solid on top of those through several; none where no solid has any.
+  std::optional<PaddedGrids> pad_each(const PaddedGrids& across) const try {
+    PaddedGrids result;
+    std::vector<SolidGrid> grids(across.solids.size());
+    bool more = false;
+    for (std::size_t s = 0; s < across.solids.size(); ++s) {
+      grids[s].node = across.joined.node[s];
+      PaddedMesh best = across.solids[s];
+      std::vector<PadReport> reports;
+      std::vector<PaddedMesh> all =
+          pad_choices(model_.solids[s], best.mesh, best.association, monitor_, &reports, interfaces_of(static_cast<int>(s)), thread_count(options_.threads));
+      const auto kept = std::find_if(all.begin(), all.end(), [&](const PaddedMesh& p) { return keeps_interfaces(model_, best.association, p.association); });
+      const int added = kept == all.end() ? 0 : reports[static_cast<std::size_t>(kept - all.begin())].added_hexes;
+      if (added > 0) best = std::move(*kept);
+      more = more || added > 0;
+      result.solids.push_back(std::move(best));
+      result.added_hexes.push_back(across.added_hexes[s] + added);
+    }
+    if (!more) return std::nullopt;
+    result.joined = join_grids(model_, grids, result.solids, across.joined.whole.mesh.points.size());
+    return result;
+  } catch (const StageFailed& e) {
+    monitor_.log("conform: layers of each solid on those through several: " + std::string(e.what()));
+    return std::nullopt;
   }
 
   static std::vector<FitCandidate> candidates_of(std::vector<PaddedGrids>& choices) {
@@ -562,6 +619,7 @@ class Conformer {
     complete(first, result.fem);
     first.nodes = nodes;
     first.stages = clock_.records();
+    if (draft.finer > 1) first.warnings.push_back("the cells are finer than asked for");
     const std::vector<std::string> lines = unmet(draft.solids);
     first.warnings.insert(first.warnings.end(), lines.begin(), lines.end());
     first.warnings.insert(first.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());
@@ -611,6 +669,10 @@ class Conformer {
     r.thin_walls = static_cast<int>(short_of.thin_walls.size());
     r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
     for (const auto* lines : {&short_of.thin_walls, &short_of.coarse_circles}) r.warnings.insert(r.warnings.end(), lines->begin(), lines->end());
+    LocalSizes sizes = options_.sizes;
+    std::erase_if(sizes, [&](const LocalSize& l) { return l.solid > 0 ? l.solid != model_.numbers[s] : !is_first_with(l.face, s); });
+    const auto other_sizes = unmet_sizes(own.mesh, by_number, sizes);
+    r.warnings.insert(r.warnings.end(), other_sizes.begin(), other_sizes.end());
     r.loose_nodes = count_loose_nodes(model, own.association, own.mesh.points);
     for (const int e : r.capture.lost_edges) r.warnings.push_back(name({1, e}) + " has no mesh edges on it");
     const auto one = merged_faces(r.capture, by_number);
@@ -634,6 +696,7 @@ class Conformer {
   StageClock& clock_;
   const Monitor& monitor_;
   const double size_;
+  double finer_ = 1;  ///< of the grid that is tried
   bool out_of_time_ = false;
 };
 

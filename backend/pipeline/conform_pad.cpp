@@ -69,7 +69,12 @@ class Parting {
     std::vector<int> solid(before.joined.whole.mesh.hexes.size());
     for (std::size_t s = 0; s < before.joined.hex.size(); ++s)
       for (const int h : before.joined.hex[s]) solid[h] = static_cast<int>(s);
-    solid_ = carry_blocks(padded.mesh, std::move(solid));
+    // Where a layer opens the mesh along an interface, the nodes of that stay with the solid outside of the layer, and its cells are of the one inside.
+    std::set<Quad> interfaces;
+    const Association& a = before.joined.whole.association;
+    for (std::size_t q = 0; q < a.quads.size(); ++q)
+      if (is_interface(model, a.patches[a.quad_patch[q]].front())) interfaces.insert(sorted(a.quads[q]));
+    solid_ = carry_blocks(padded.mesh, std::move(solid), interfaces);
   }
 
   /// None where the interfaces cannot be followed through the layers.

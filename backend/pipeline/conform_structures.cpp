@@ -1,6 +1,9 @@
 #include "pipeline/conform_structures.h"
 
+#include <set>
+
 #include "core/parallel.h"
+#include "core/sorted.h"
 #include "label/frame.h"
 #include "pipeline/conform_demands.h"
 #include "pipeline/conform_grid.h"
@@ -64,6 +67,27 @@ const ConformalStructure* ConformalStructures::structure(int number, StageClock&
   return attempt.structure.get();
 }
 
+namespace {
+
+/// CAD faces that some tets have a side on, ascending.
+std::vector<int> faces_at(const TetMesh& mesh, const std::vector<int>& tets) {
+  std::set<Triangle> sides;
+  for (const int t : tets)
+    for (std::size_t left_out = 0; left_out < 4; ++left_out) {
+      Triangle side{};
+      for (std::size_t k = 0; k < 3; ++k) side[k] = mesh.tets[t][(left_out + 1 + k) % 4];
+      sides.insert(sorted(side));
+    }
+  std::set<int> faces;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (sides.contains(sorted(mesh.triangles[t]))) faces.insert(mesh.triangle_face[t]);
+  for (std::size_t t = 0; t < mesh.inner_triangles.size(); ++t)
+    if (sides.contains(sorted(mesh.inner_triangles[t]))) faces.insert(mesh.inner_face[t]);
+  return {faces.begin(), faces.end()};
+}
+
+}  // namespace
+
 std::unique_ptr<ConformalStructure> ConformalStructures::built(const ConformalLabels& labelled, StageClock& clock, const Monitor& monitor) const {
   auto made = std::make_unique<ConformalStructure>(ConformalStructure{labelled.mesh});
   made->between = interface_charts(labelled);
@@ -78,6 +102,7 @@ std::unique_ptr<ConformalStructure> ConformalStructures::built(const ConformalLa
   made->map = std::move(realised.map);
   monitor.log("deform: " + std::to_string(made->map.charts.size()) + " charts, " + std::to_string(realised.report.flipped) + " flipped of " +
               std::to_string(made->tets.tets.size()) + " tets");
+  made->folded_faces = faces_at(made->tets, realised.report.flipped_tets);
   made->blocks = clock.stage("blocks", [&] { return extract_blocks(made->tets, made->map, monitor); });
   made->block_solid = solids_of_blocks(made->tets, made->map, made->blocks);
   bound_at_interfaces(made->blocks, made->map, made->block_solid);

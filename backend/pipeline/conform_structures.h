@@ -23,6 +23,7 @@ struct ConformalStructure {
   PolycuboidMap map{};
   BlockComplex blocks{};
   std::vector<int> block_solid{};
+  std::vector<int> folded_faces{};  ///< CAD faces at tets that the map turns over, ascending
 };
 
 /// The structures of solids that touch, by their labellings, each made when it is first asked for. A run that was cancelled leaves them as they were.

@@ -159,6 +159,7 @@ MeshResult Session::mesh(const MeshOptions& given, const Monitor& monitor) {
   r.coarse_circles = static_cast<int>(short_of.coarse_circles.size());
   warn_of(short_of.thin_walls, "walls with fewer elements through them than asked for", r.warnings);
   warn_of(short_of.coarse_circles, "CAD edges with fewer elements along them than their turning asks for", r.warnings);
+  warn_of(unmet_sizes(result.mesh, result.association, options.sizes), "sizes of faces that the cells do not have", r.warnings);
   r.loose_nodes = count_loose_nodes(model_, result.association, result.mesh.points);
   return result;
 }

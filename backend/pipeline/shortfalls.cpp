@@ -2,9 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <map>
 
 #include "core/error.h"
+#include "core/hexahedron.h"
 #include "pad/topology.h"
 #include "pipeline/circles.h"
 #include "pipeline/tuning.h"
@@ -12,12 +15,20 @@
 namespace polycube {
 namespace {
 
+constexpr std::array<std::array<std::size_t, 2>, 4> kQuadEdges{{{0, 1}, {1, 2}, {2, 3}, {3, 0}}};
+
 Vec3 unit_normal(const std::vector<Vec3>& points, const Quad& q) { return (points[q[2]] - points[q[0]]).cross(points[q[3]] - points[q[1]]).normalized(); }
 
 std::string faces_of(const std::vector<int>& patch) {
   std::string text;
   for (int f : patch) text += (text.empty() ? "" : "+") + name({2, f});
   return text;
+}
+
+std::string short_text(double length) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", length);
+  return text.data();
 }
 
 std::string counted(int elements) { return std::to_string(elements) + (elements == 1 ? " element" : " elements"); }
@@ -62,6 +73,31 @@ Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Ass
                                     " the curve, not " + std::to_string(wanted));
   }
   return result;
+}
+
+std::vector<std::string> unmet_sizes(const HexMesh& mesh, const Association& association, const LocalSizes& sizes) {
+  constexpr double kRounding = 1.5;  // an edge of one and a half cells gets one or two
+  std::vector<std::string> lines;
+  for (const LocalSize& s : sizes) {
+    double sum = 0;
+    int count = 0;
+    const auto add = [&](const auto& nodes, const auto& edges) {
+      double longest = 0;
+      for (const auto& [a, b] : edges) longest = std::max(longest, (mesh.points[nodes[a]] - mesh.points[nodes[b]]).norm());
+      sum += longest;
+      ++count;
+    };
+    if (s.solid > 0)
+      for (const Hex& hex : mesh.hexes) add(hex, kHexEdges);
+    for (std::size_t q = 0; q < association.quads.size() && s.face > 0; ++q) {
+      const std::vector<int>& faces = association.patches[association.quad_patch[q]];
+      if (std::find(faces.begin(), faces.end(), s.face) != faces.end()) add(association.quads[q], kQuadEdges);
+    }
+    const double found = count > 0 ? sum / count : s.size;
+    if (found > kRounding * s.size || kRounding * found < s.size)
+      lines.push_back("size " + text_of(s) + ": the cells there are " + short_text(found) + " mm long");
+  }
+  return lines;
 }
 
 std::vector<std::string> merged_faces(const CadCapture& capture, const Association& association) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cad/cad.h"
+#include "core/demands.h"
 #include "core/mesh.h"
 #include "core/report.h"
 
@@ -19,6 +20,10 @@ struct Shortfalls {
 std::vector<int> elements_on_edges(const Association& association, int edge_count);
 
 Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Association& association, int min_layers, int per_circle);
+
+/// One line for every size of a CAD face, or of the solid, that the cells there do not have, such as "size Face3=0.5: the cells there are 1.3 mm long": a sheet
+/// of cells goes on through what may want others.
+std::vector<std::string> unmet_sizes(const HexMesh& mesh, const Association& association, const LocalSizes& sizes);
 
 /// One line for every patch whose faces edges that are ignored on demand join.
 std::vector<std::string> merged_faces(const CadCapture& capture, const Association& association);

@@ -79,6 +79,22 @@ class Demands(FolderTest):
         self.assertEqual(on_box[1], 4 * plain[1])
         self.assertEqual(self.counts(mesh(box_on_box(), size=2, min_layers=1, growth=1, sizes={"Face11": 0.5})), on_box)
 
+    def test_sizes_that_the_cells_do_not_have_are_told(self):
+        """A sheet of cells goes on through the lower box, which is to have larger ones; by themselves each box has its own."""
+        for interfaces in ("conform", "separate"):
+            for what in ("Face6", "Face11", "Face12", "Solid1", "Solid2"):
+                found = mesh(box_on_box(), size=1.5, order=1, sizes={what: 0.4}, interfaces=interfaces)
+                if what[0] == "S":
+                    cells, sides = found.hexes[found.hex_solid == int(what[5:])], ((0, 1), (1, 2), (0, 4))
+                else:
+                    cells, sides = found.quads[found.groups[what]["quads"]], ((0, 1), (1, 2))
+                length = np.mean(np.max([np.linalg.norm(found.nodes[cells[:, a]] - found.nodes[cells[:, b]], axis=1) for a, b in sides], axis=0))
+                told = [line for line in found.report["warnings"] if "size {}=0.4: the cells there are".format(what) in line]
+                self.assertEqual(len(told), int(length > 0.6), (interfaces, what, length))
+                if interfaces == "separate":
+                    self.assertEqual(told, [])
+        self.assertTrue(mesh(box_on_box(), size=1.5, order=1, sizes={"Solid1": 3}).report["warnings"])
+
     def test_sizes_along_an_axis(self):
         found = mesh(box_on_box(), size=2, min_layers=1, growth=1, sizes={"Z": 0.5}, order=1)
         self.assertEqual(len(np.unique(np.round(found.nodes[:, 2], 9))), 6 + 4 + 1)

@@ -204,6 +204,12 @@ class Conform(ConformTest):
         ball = Part.makeSphere(3, VECTOR(5, 5, 5))
         self.check(Part.Compound([Part.makeBox(10, 10, 10).cut(ball), ball]), size=2, volume=0.3)
 
+    def test_a_thin_coat_on_all_sides(self):
+        """Beside the box's edges the nearest triangle of the interface is beyond the edge; the plane tells."""
+        box = Part.makeBox(12, 10, 8)
+        found = self.check(Part.Compound([box, Part.makeBox(12.4, 10.4, 8.4, VECTOR(-0.2, -0.2, -0.2)).cut(box)]), size=0.6, order=1)
+        self.assertGreater(found.scaled_jacobian.min(), 0.99)
+
     def test_halves_of_a_ball(self):
         """Nothing on the outside tells the axes; the face between the halves does."""
         ball = Part.makeSphere(6)
@@ -230,6 +236,28 @@ class Conform(ConformTest):
         self.check(Part.Compound([Part.makeCylinder(8, 20).cut(ring), ring]), size=1.5, order=1, volume=0.1)
         ring = Part.makeTorus(7, 1.5, VECTOR(0, 0, 9.5))
         self.check(Part.Compound([Part.makeCylinder(7, 20).cut(ring), ring]), size=1.5, order=1, volume=0.1)
+
+    def test_a_slot_that_a_ring_fills(self):
+        """The outside is one cylinder: a layer under all of it, and one in the shaft under the bottom of the slot, which alone would have to go round the ring."""
+        for inner, size in ((6, 1.5), (9, 1)):
+            ring = Part.makeCylinder(10, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(inner, 2, VECTOR(0, 0, 3)))
+            found = self.check(Part.Compound([Part.makeCylinder(10, 8).cut(ring), ring]), size=size, order=1, volume=0.1)
+            self.assertGreater(found.scaled_jacobian.min(), 0.7)
+
+    def test_a_finer_grid_where_none_fits_on_the_one_asked_for(self):
+        """A ring of .4 of the size in width: cells stay inverted on that grid."""
+        ring = Part.makeCylinder(10, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(9, 2, VECTOR(0, 0, 3)))
+        self.check(Part.Compound([Part.makeCylinder(10, 8).cut(ring), ring]), size=2.5, order=1, volume=0.1)
+
+    def test_bushing_with_a_collar(self):
+        """Layers under the outside go on along the bore between both: their cells are the bushing's, the interface stays where it is."""
+        outside = Part.makeCylinder(5, 8).fuse(Part.makeCylinder(8, 2, VECTOR(0, 0, 8))).removeSplitter()
+        plate = Part.makeBox(40, 20, 8, VECTOR(-10, -10, 0)).cut(Part.makeCylinder(5, 8))
+        found = self.check(Part.Compound([plate, outside.cut(Part.makeCylinder(3, 10))]), size=1.5, order=1, volume=0.1)
+        self.assertGreater(found.scaled_jacobian.min(), 0.6)
+        nodes = found.nodes[found.groups["Solid1_Solid2"]["nodes"]]
+        round_ones = nodes[nodes[:, 2] < 8 - 1e-6]
+        np.testing.assert_allclose(np.hypot(round_ones[:, 0], round_ones[:, 1]), 5, atol=1e-9)
 
     def test_five_in_a_row(self):
         self.check(Part.Compound([Part.makeBox(4, 5, 5, VECTOR(4 * i, 0, 0)) for i in range(5)]), size=2)
@@ -383,17 +411,15 @@ class Refusals(FolderTest):
         self.assertIn("Edge", message.split("(")[-1])
         self.assertEqual(len(set(mesh(Part.Compound(boxes), size=1, interfaces="separate").hex_solid.tolist())), 4)
 
-    def test_a_slot_that_a_ring_fills(self):
-        """What is wrong with the common mesh is told with the faces, and separate has one."""
-        ring = Part.makeCylinder(10, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(6, 2, VECTOR(0, 0, 3)))
-        shape = Part.Compound([Part.makeCylinder(10, 8).cut(ring), ring])
-        try:
+    def test_a_map_that_folds_is_told_with_its_faces(self):
+        """A ring in a groove with two sides only, which no polycube has: the sides are named, by the numbers of the shape."""
+        section = Part.Face(Part.makePolygon([VECTOR(10, 0, 3), VECTOR(7, 0, 4.5), VECTOR(10, 0, 6), VECTOR(10, 0, 3)]))
+        ring = section.revolve(VECTOR(), VECTOR(0, 0, 1), 360)
+        shape = Part.Compound([Part.makeCylinder(10, 9).cut(ring), ring])
+        sides = {"Face{}".format(n) for n, one in enumerate(shape.Faces, 1) if one.Surface.TypeId == "Part::GeomCone"}
+        with self.assertRaisesRegex(_polycube.StageFailed, "Solid1, Solid2: .*: the map folds; --interfaces separate") as refusal:
             mesh(shape, size=2)
-        except _polycube.StageFailed as failure:
-            self.assertIn("Solid1, Solid2: ", str(failure))
-            self.assertIn("cells stay inverted; --interfaces separate meshes each solid by itself", str(failure))
-            self.assertTrue(failure.entities)
-        self.assertEqual(len(mesh(shape, size=2, interfaces="separate").report["solids"]), 2)
+        self.assertTrue(sides & set(refusal.exception.entities))
 
     def test_what_touches_itself_in_a_point(self):
         """A cylinder tangent to the edge of the block below it; a ring tangent to the bolt holes of the plates on both sides."""

@@ -98,6 +98,15 @@ TEST(Assembly, SolidsApartOrThatMeetInAnEdgeHaveNoInterface) {
   EXPECT_TRUE(assembly(shapes::compound(shapes::compound(box, shapes::moved(box, 0, 1, 1, 0)), shapes::moved(box, 0, 1, 0, 0))).warnings.empty());
 }
 
+TEST(Assembly, TangentSolidsAreTold) {
+  const std::string ball = shapes::moved(shapes::sphere(1), 0, 2, 2, 3);
+  EXPECT_THAT(assembly(shapes::compound(shapes::box(4, 4, 2), ball)).warnings,
+              ElementsAre("Solid1 and Solid2 touch in a line or a point alone: they have no nodes in common, and no load passes from one to the other"));
+  EXPECT_THAT(assembly(shapes::compound(shapes::sphere(1), shapes::moved(shapes::sphere(1), 0, 2, 0, 0))).warnings,
+              ElementsAre(HasSubstr("touch in a line or a point alone")));
+  EXPECT_THAT(assembly(shapes::compound(shapes::box(4, 4, 2), shapes::moved(ball, 0, 0, 0, 1))).warnings, IsEmpty());
+}
+
 TEST(Assembly, GapsThatAreHardlyMeantAreTold) {
   const auto warnings = [](double gap) {
     return assembly(shapes::compound(shapes::box(4, 4, 2), shapes::moved(shapes::box(4, 4, 2), 0, 0, 0, 2 + gap))).warnings;

@@ -118,6 +118,21 @@ class MechanicalLoads(LoadTest):
         support.References = [(part, "Face5")]
         self.assertEqual(self.fixed(self.written(analysis), support), set((result.groups["Face5"]["nodes"] + 1).tolist()))
 
+    def test_supports_on_copies_of_a_face(self):
+        """Both sections of a part of revolution are one face in two places, and FreeCAD 1.x looks up copies of them."""
+        section = Part.Face(Part.makePolygon([Vector(10, 0, 0), Vector(20, 0, 0), Vector(20, 0, 5), Vector(10, 0, 5), Vector(10, 0, 0)]))
+        part = self.part(section.revolve(Vector(), Vector(0, 0, 1), 90))
+        ends = {name: at for name in ("x", "y") for at, face in enumerate(part.Shape.Faces, 1) if abs(getattr(face.CenterOfMass, name)) < 1e-6}
+        analysis, solver = calculix.make_analysis(part, ["Face{}".format(ends["x"])])
+        supports = {"x": next(member for member in analysis.Group if member.isDerivedFrom("Fem::ConstraintFixed"))}
+        supports["y"] = self.add(analysis, "Fixed", part, "Face{}".format(ends["y"]))
+        mesh = polycube.create_fem_mesh(part, size=5, analysis=analysis).FemMesh
+        self.document.recompute()
+        path = self.written(analysis)
+        for name, support in supports.items():
+            on = {number for number, point in mesh.Nodes.items() if abs(getattr(point, name)) < 1e-6}
+            self.assertEqual(self.fixed(path, support), on, name)
+
     def fixed(self, path, support):
         with open(path, encoding="utf-8") as file:
             text = file.read()

@@ -5,9 +5,12 @@ import os
 import sys
 import unittest
 
+import FreeCAD
 import FreeCADGui
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+# FreeCAD 1.x has its start page before the document where this is not set.
+FreeCAD.ParamGet("User parameter:BaseApp/Preferences/General").SetString("AutoloadModule", "NoneWorkbench")
 FreeCADGui.showMainWindow()
 
 name = os.environ["POLYCUBE_GUI_MODULE"]

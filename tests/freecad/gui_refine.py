@@ -142,6 +142,7 @@ class FromTheSelection(RefineTest):
             self.assertLessEqual(table.visualItemRect(table.item(row, 2)).right(), table.viewport().width())
             self.assertEqual(table.item(row, 1).toolTip(), table.item(row, 1).text())
         self.assertEqual(table.horizontalScrollBar().maximum(), 0)
+        self.assertEqual((self.box.ViewObject.isVisible(), panel.obj.ViewObject.isVisible()), (True, False), "the places are on the part, the mesh would hide them")
         picture("narrow-refinements")
         self.press("Ok")
 

@@ -9,11 +9,14 @@ import FemGui
 import FreeCAD
 import FreeCADGui
 import ObjectsFem
+import TestPolycubeSolver
 from gui_support import GuiTest, picture, process_events
 from PySide import QtCore, QtGui
 
 from freecad import polycube
 from freecad.polycube import ccx, commands
+
+calculix = TestPolycubeSolver.calculix
 
 
 class Solve(GuiTest):
@@ -25,10 +28,8 @@ class Solve(GuiTest):
         self.analysis.addObject(make_solver(document, "Solver"))
         steel = self.analysis.addObject(ObjectsFem.makeMaterialSolid(document, "Steel"))[0]
         steel.Material = dict(steel.Material, Name="Steel", YoungsModulus="210000 MPa", PoissonRatio="0.3")
-        for kind, face in (("Fixed", "Face1"), ("Pressure", "Face2")):
-            obj = self.analysis.addObject(getattr(ObjectsFem, "makeConstraint" + kind)(document, kind))[0]
-            obj.References = [(self.box, face)]
-        document.Pressure.Pressure = 1.0
+        calculix.add_constraint(self.analysis, "Fixed", self.box, ["Face1"])
+        calculix.add_constraint(self.analysis, "Pressure", self.box, ["Face2"], Pressure=1.0)
         polycube.create_fem_mesh(self.box, size=5, analysis=self.analysis)
         document.recompute()
         FemGui.setActiveAnalysis(self.analysis)
@@ -40,6 +41,9 @@ class Solve(GuiTest):
 
     def results(self):
         return [member for member in self.analysis.Group if member.isDerivedFrom("Fem::FemResultObject")]
+
+    def pipelines(self):
+        return [obj for obj in self.document.Objects if obj.isDerivedFrom("Fem::FemPostObject")]
 
     def run_and_answer(self, answer):
         """Runs the command; `answer` is asked for what to do with the modal window that is open, until it says that it is done."""
@@ -66,6 +70,7 @@ class Solve(GuiTest):
         self.assertTrue(result.Mesh.ViewObject.isVisible())
         self.assertFalse(self.box.ViewObject.isVisible(), "it would hide the stresses")
         self.assertFalse(self.document.PolycubeMesh.ViewObject.isVisible())
+        self.assertEqual([obj.Name for obj in self.pipelines() if obj.ViewObject.isVisible()], [], "FreeCAD 1.x makes one, in the same place")
         self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
@@ -77,13 +82,21 @@ class Solve(GuiTest):
             FreeCADGui.runCommand(commands.Solve.Name)
         (result,) = self.results()
         mesh = self.document.PolycubeMesh
+        if not self.pipelines():
+            self.analysis.addObject(ObjectsFem.makePostVtkResult(self.document, result))
         for _ in range(2):
+            for obj in self.pipelines():
+                obj.ViewObject.show()
             shown = result.Mesh.ViewObject.isVisible()  # FreeCAD hides it when its panel is closed
             panel = self.caught(lambda: mesh.ViewObject.Proxy.doubleClicked(mesh.ViewObject))
             self.assertEqual((mesh.ViewObject.isVisible(), result.Mesh.ViewObject.isVisible()), (True, False), "they stand in the same place")
+            self.assertFalse(any(obj.ViewObject.isVisible() for obj in self.pipelines()), "they stand there too")
             panel.result.colours.setChecked(True)
             panel.result.cut.setCurrentIndex(1)
             self.press("Ok")
+            for obj in self.pipelines():
+                self.assertTrue(obj.ViewObject.isVisible())
+                obj.ViewObject.hide()
             self.assertEqual((mesh.ViewObject.isVisible(), result.Mesh.ViewObject.isVisible()), (False, shown))
             result.ViewObject.Proxy.doubleClicked(result.ViewObject)
             process_events(0.3)

@@ -25,7 +25,7 @@ class Quantity:
     name: str
     kind: str  # displacement, stress, frequency, temperature: how close it has to be at the finest size, see LIMITS
     error: Callable  # of a Field: its error, a share
-    coarse: float  # the error at the coarsest size is no more than that, for --quick: measured, and a quarter more
+    coarse: float  # the error at the coarsest size is no more than that, for --quick: measured, the larger of Gmsh 4.8 and 4.13, and a quarter more
 
 
 @dataclass
@@ -433,7 +433,7 @@ CASES = [
         (5, 3.5, 2.5),
         [Quantity("stress beside the hole", "stress", hole_top, 0.025), Quantity("radial stress at the hole", "stress", hole_free, 0.091)],
     ),
-    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.013)]),
+    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.017)]),
     Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.057)]),
     Case(
         "LE11",

@@ -20,9 +20,13 @@ def other_meshes(analysis, mesh=None):
     return [obj for obj in found if getattr(getattr(obj, "Proxy", None), "Type", "") != "Fem::MeshResult"]
 
 
-def result_meshes(analysis):
-    """The meshes that results of an analysis are shown on."""
-    return [obj.Mesh for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj.Mesh]
+def shown_results(analysis):
+    """What results of an analysis are shown on: their meshes, and pipelines of them with their filters, which FreeCAD 1.x makes of every result."""
+    found = [obj.Mesh for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj.Mesh]
+    for obj in analysis.Group:
+        if obj.isDerivedFrom("Fem::FemPostObject"):
+            found += [obj, *(inner for inner in obj.OutListRecursive if inner.isDerivedFrom("Fem::FemPostObject"))]
+    return found
 
 
 def move(mesh, analysis):

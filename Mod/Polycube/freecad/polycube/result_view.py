@@ -1,6 +1,6 @@
 """What the window shows once an analysis is solved: the stresses in colours on the mesh of the result, by themselves."""
 
-from . import objects, shapes
+from . import analyses, objects, shapes
 from .compat import part_of
 from .words import noop, tr
 
@@ -27,6 +27,8 @@ def show(analysis, result):
         mesh.ViewObject.hide()
         for part in shapes.solid_objects(part_of(mesh)) if part_of(mesh) else ():
             part.ViewObject.hide()
+    for other in analyses.shown_results(analysis):
+        other.ViewObject.hide()
     view = result.Mesh.ViewObject
     view.show()
     least, most = min(values), max(values)

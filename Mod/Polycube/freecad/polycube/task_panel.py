@@ -525,10 +525,10 @@ class MeshPanel:
         if self._form is None or not self.mesh_exists():
             return
         analysis = objects.analysis_of(self.obj)
-        results = [mesh for mesh in analyses.result_meshes(analysis) if mesh.ViewObject.isVisible()] if analysis else []
+        results = [obj for obj in analyses.shown_results(analysis) if obj.ViewObject.isVisible()] if analysis else []
         self._shown_before = self.obj.ViewObject.isVisible(), results
-        for mesh in results:
-            mesh.ViewObject.hide()
+        for obj in results:
+            obj.ViewObject.hide()
         self.obj.ViewObject.show()
 
     def _show_as_before(self):
@@ -537,13 +537,13 @@ class MeshPanel:
         was_shown, results = self._shown_before
         if not was_shown:
             self.obj.ViewObject.hide()
-        for mesh in filter(shapes.exists, results):
-            mesh.ViewObject.show()
+        for obj in filter(shapes.exists, results):
+            obj.ViewObject.show()
 
     def select(self, entities):
-        """Shows CAD entities in the 3D view."""
+        """Shows CAD entities in the 3D view, by themselves: the mesh stands where they do."""
         if entities and self.part_exists():
-            self.show_part()
+            self.show_part_alone()
             FreeCADGui.Selection.clearSelection()
             top, path = shapes.selection_path(shapes.solid_object(self.part))
             for name in entities:

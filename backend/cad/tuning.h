@@ -39,7 +39,7 @@ struct CadTuning {
   int pieces_a_cell = 3;
   /// Cells along each side of it, at least. Guess.
   int fewest_cells = 8;
-  /// Cells along each side of it, at most. Guess: 4 KB.
+  /// Cells along each side of it, at most: 4 KB. Guess.
   int most_cells = 64;
   /// Of the box of a border: so far off rounding may take a point beside it. Theory: a million times the rounding of doubles.
   double border_rounding = 1e-9;

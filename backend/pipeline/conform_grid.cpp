@@ -12,6 +12,7 @@
 #include "core/hexahedron.h"
 #include "core/sorted.h"
 #include "pad/topology.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
@@ -154,7 +155,6 @@ SolidGrid grid_of_solid(const HexComplex& hexes, const std::vector<int>& hex_sol
   std::vector<std::vector<std::pair<int, Vec3>>> middles(own_charts.size());
   for (std::size_t c = 0; c < own_charts.size(); ++c)
     for (const int t : own_charts[c].triangles) middles[c].emplace_back(t, middle(t));
-  constexpr double kOnPlane = 1e-6;  // of the map: nodes are put on a chart's plane to rounding
   Vec3 low = map.image.front(), high = low;
   for (const Vec3& p : map.image) {
     low = low.cwiseMin(p);
@@ -183,7 +183,7 @@ SolidGrid grid_of_solid(const HexComplex& hexes, const std::vector<int>& hex_sol
       if (middles[c].empty() || (at == outer.end() ? own_charts[c].sign != 0 : static_cast<int>(c) != hexes.quad_chart[at->second])) continue;
       const double off = at == outer.end() ? off_plane(own_charts[c]) : 0;
       for (const auto& [t, place] : middles[c]) {
-        const std::pair distance{off > kOnPlane * extent ? off : 0, (place - centre).squaredNorm()};
+        const std::pair distance{off > kPipelineTuning.on_plane * extent ? off : 0, (place - centre).squaredNorm()};
         if (distance >= least) continue;
         least = distance;
         triangle = t;

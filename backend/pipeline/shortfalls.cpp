@@ -76,7 +76,6 @@ Shortfalls find_shortfalls(const CadModel& model, const HexMesh& mesh, const Ass
 }
 
 std::vector<std::string> unmet_sizes(const HexMesh& mesh, const Association& association, const LocalSizes& sizes) {
-  constexpr double kRounding = 1.5;  // an edge of one and a half cells gets one or two
   std::vector<std::string> lines;
   for (const LocalSize& s : sizes) {
     double sum = 0;
@@ -94,7 +93,7 @@ std::vector<std::string> unmet_sizes(const HexMesh& mesh, const Association& ass
       if (std::find(faces.begin(), faces.end(), s.face) != faces.end()) add(association.quads[q], kQuadEdges);
     }
     const double found = count > 0 ? sum / count : s.size;
-    if (found > kRounding * s.size || kRounding * found < s.size)
+    if (found > kPipelineTuning.size_rounding * s.size || kPipelineTuning.size_rounding * found < s.size)
       lines.push_back("size " + text_of(s) + ": the cells there are " + short_text(found) + " mm long");
   }
   return lines;

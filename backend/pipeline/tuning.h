@@ -43,6 +43,10 @@ struct PipelineTuning {
   int conform_fits = 3;
   /// Ways to lay layers through several solids that are fitted. Measured: on 8 parts the first was the best each time.
   std::size_t conform_across = 1;
+  /// Of the map's extent: nodes nearer to a chart's plane are on it. Theory: they are put there to rounding.
+  double on_plane = 1e-6;
+  /// Times a size asked for that cells may be off it before that is told. Theory: an edge of one and a half cells gets one or two.
+  double size_rounding = 1.5;
   /// Of the diagonal: below this a mesh edge is none. Guess.
   double shortest_edge = 1e-8;
   /// Cosine of the bend of a zigzag, 35 degrees. Theory: a boundary along generators, CAD edges or 45 degree lines bends less.
@@ -89,9 +93,9 @@ struct PipelineTuning {
   int few_flips = 50;
 
   POLYCUBE_ENTRIES(slack, share_slack, widest_aspect, thinnest, smallest, most_rounds, circle_slack, small_circle, per_small_circle, fewest_round, most_turns,
-                   turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, shortest_edge, zigzag, neighbour_rounds, count_miss,
-                   count_power, count_reach, count_rounds, much_of_asked, much_of_all, finishing, hurry, posed_size, grid, pose_samples, frames, tie,
-                   realise_rounds, few_folds, opposite, mapped, few_flips)
+                   turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, on_plane, size_rounding, shortest_edge, zigzag,
+                   neighbour_rounds, count_miss, count_power, count_reach, count_rounds, much_of_asked, much_of_all, finishing, hurry, posed_size, grid,
+                   pose_samples, frames, tie, realise_rounds, few_folds, opposite, mapped, few_flips)
 };
 
 inline constexpr const PipelineTuning& kPipelineTuning = tuning_in_force<PipelineTuning>;

@@ -170,7 +170,11 @@ class Cli(FolderTest):
         temporary = os.path.join(self.folder, "tmp")
         os.mkdir(temporary)
         process = subprocess.Popen(
-            [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--size", "0.4"], stderr=subprocess.PIPE, text=True, env=dict(os.environ, TMPDIR=temporary)
+            [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--size", "0.4"],
+            stderr=subprocess.PIPE,
+            text=True,
+            env=dict(os.environ, TMPDIR=temporary),
+            preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),  # under nohup it is ignored, and that is inherited
         )
         while not os.listdir(temporary):
             time.sleep(0.01)

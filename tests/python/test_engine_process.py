@@ -27,7 +27,9 @@ class EngineProcess(FolderTest):
         self.before = set(os.listdir(self.folder))
         environment = dict(os.environ, POLYCUBE_TET_WORKER=worker, TMPDIR=self.temporary)
         command = [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--report", self.path("r.json"), *arguments]
-        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+        # Under nohup the signal is ignored, and that is inherited.
+        heeding = dict(preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, **heeding)
 
     def wait_for(self, process, name):
         """Until the deed has made the file."""

@@ -159,7 +159,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
     g.domain.extend(segment.a);
     g.domain.extend(segment.b);
   }
-  g.border_grid = BorderGrid(g.border);
+  if (!g.border_edges.empty()) g.border_grid = BorderGrid(g.border);  // all of a face without is inside
 }
 
 FaceGeometry face_geometry(const TopoDS_Face& face) {

@@ -124,7 +124,7 @@ std::optional<bool> BorderGrid::inside(const Vec2& uv) const {
 
 bool inside(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv) {
   const std::optional<bool> known = face.border_grid.inside(uv);
-  return known && !face.border_edges.empty() ? *known : inside_by_border(shape, face, uv);
+  return known ? *known : inside_by_border(shape, face, uv);
 }
 
 bool inside_by_border(const CadModel::Shape& shape, const FaceGeometry& face, const Vec2& uv) {

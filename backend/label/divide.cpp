@@ -39,17 +39,23 @@ struct Cutter {
   }
 };
 
-// `line`: what the quarters go round; `axis`: the axis of the frame that is next to it.
-void divide(Cutter& cutter, int face, const Vec3& tip, const Vec3& line, const Vec3& axis, const Mat3& frame, const Monitor& monitor) {
-  const TetMesh& mesh = cutter.mesh;
+// Least and largest of the points of a face along a direction in the frame.
+std::pair<double, double> extent_along(const TetMesh& mesh, int face, const Vec3& direction, const Mat3& frame) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (mesh.triangle_face[t] != face) continue;
     for (int n : mesh.triangles[t]) {
-      low = std::min(low, axis.dot(frame * mesh.points[n]));
-      high = std::max(high, axis.dot(frame * mesh.points[n]));
+      low = std::min(low, direction.dot(frame * mesh.points[n]));
+      high = std::max(high, direction.dot(frame * mesh.points[n]));
     }
   }
+  return {low, high};
+}
+
+// `line`: what the quarters go round; `axis`: the axis of the frame that is next to it.
+void divide(Cutter& cutter, int face, const Vec3& tip, const Vec3& line, const Vec3& axis, const Mat3& frame, const Monitor& monitor) {
+  const TetMesh& mesh = cutter.mesh;
+  const auto [low, high] = extent_along(mesh, face, axis, frame);
   const double half = (low + high) / 2, side = axis.dot(frame * tip) > half ? 1 : -1;
   int k = 0;
   axis.cwiseAbs().maxCoeff(&k);
@@ -150,14 +156,7 @@ TetMesh cut_faces(TetMesh mesh, const std::vector<FaceCut>& cuts, const Mat3& fr
   for (std::size_t face = 1; face < cuts.size(); ++face) {
     const FaceCut& c = cuts[face];
     if (!c.exact) continue;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (mesh.triangle_face[t] != static_cast<int>(face)) continue;
-      for (int n : mesh.triangles[t]) {
-        low = std::min(low, c.across.dot(frame * mesh.points[n]));
-        high = std::max(high, c.across.dot(frame * mesh.points[n]));
-      }
-    }
+    const auto [low, high] = extent_along(mesh, static_cast<int>(face), c.across, frame);
     const double middle = low + c.share * (high - low);
     cutter.cut(
         static_cast<int>(face), 0, [&](const Vec3& p) { return c.across.dot(frame * p) - middle; }, monitor);

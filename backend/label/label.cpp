@@ -520,10 +520,11 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
     }
   }
   const RegionGraph& graph = plan->graph;
+  const int folded = count_folded_parts(mesh, result.frame, result.label);
   monitor.log("label: " + std::to_string(graph.regions.size()) + " regions, " + std::to_string(left.opposite_arcs) + " opposite arcs, " +
               std::to_string(left.poor_loops) + " missing corners, " + std::to_string(left.bad_corners) + " bad corners, " +
-              std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns, " +
-              std::to_string(left.folded_regions) + " folded regions");
+              std::to_string(left.turning_points) + " turning points, " + std::to_string(left.bad_turns) + " bad turns, " + std::to_string(folded) +
+              " folded parts of faces");
   if (report) {
     *report = {static_cast<int>(graph.regions.size()),
                static_cast<int>(find_charts(mesh.triangles, result.label).size()),
@@ -532,7 +533,7 @@ Labelling label(const CadModel& model, TetMesh& mesh, const LabelOptions& option
                left.bad_corners,
                left.turning_points,
                left.bad_turns,
-               left.folded_regions,
+               folded,
                left.score,
                cost(*plan)};
   }

@@ -31,8 +31,8 @@ struct Labelling {
   std::vector<int> label;         ///< per boundary triangle: 0..5 = +X -X +Y -Y +Z -Z of the frame
 };
 
-/// What is wrong with the labels as they are after all cuts, by the published rules (validity.h); all zero but `regions`, `charts` and `energy` for a
-/// valid, monotone labelling.
+/// What is wrong with the labels as they are after all cuts, by the published rules (validity.h); all zero but `regions`, `charts`, `folded_parts` and `energy`
+/// for a valid, monotone labelling.
 struct LabelReport {
   int regions = 0;
   int charts = 0;
@@ -41,9 +41,9 @@ struct LabelReport {
   int bad_corners = 0;
   int turning_points = 0;
   int bad_turns = 0;
-  int folded_regions = 0;
-  double score = 0;   ///< of the violations, weighted
-  double energy = 0;  ///< of the labels: deviation from the normals and borders, what the search lowers after the violations
+  int folded_parts = 0;  ///< of faces, no fault by themselves (count_folded_parts)
+  double score = 0;      ///< of the violations, weighted
+  double energy = 0;     ///< of the labels: deviation from the normals and borders, what the search lowers after the violations
   bool valid() const { return opposite_arcs == 0 && poor_loops == 0 && bad_corners == 0; }
 };
 

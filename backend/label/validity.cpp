@@ -345,25 +345,6 @@ class ViolationFinder::Check {
   Violations result_;
 };
 
-// What the charts have of single CAD faces, and folds.
-int folded_parts(const ChartGraph& c, const TetMesh& mesh) {
-  std::map<std::pair<int, int>, Vec3> facing;  // CAD face, chart: the normal times the area
-  std::map<std::pair<int, int>, double> area;
-  std::map<int, double> face_area;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [i, j, k] = mesh.triangles[t];
-    const Vec3 normal = (c.points[j] - c.points[i]).cross(c.points[k] - c.points[i]) / 2;
-    const std::pair part(mesh.triangle_face[t], c.graph.triangle_region[t]);
-    facing.try_emplace(part, Vec3::Zero()).first->second += normal;
-    area[part] += normal.norm();
-    face_area[part.first] += normal.norm();
-  }
-  return static_cast<int>(std::count_if(facing.begin(), facing.end(), [&](const auto& part) {
-    const auto& [key, normal] = part;
-    return area[key] > kLabelTuning.sliver * face_area[key.first] && folds(normal, c.label[static_cast<std::size_t>(key.second)]);
-  }));
-}
-
 ViolationFinder::Course ViolationFinder::course(const std::vector<Vec3>& points, const Arc& arc, int axis) {
   Course result{{points[arc.nodes.front()][axis], false}};
   for (std::size_t i = 1; i < arc.nodes.size(); ++i) {
@@ -417,9 +398,28 @@ ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector
 
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
   const ChartGraph c = chart_graph(mesh, frame, labels);
-  Violations result = find_violations(c.graph, c.points, c.label, c.noise);
-  result.folded_regions = folded_parts(c, mesh);
-  return result;
+  return find_violations(c.graph, c.points, c.label, c.noise);
+}
+
+int count_folded_parts(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
+  struct Part {
+    Vec3 facing = Vec3::Zero();  // the normal times the area
+    double area = 0;
+  };
+  std::map<std::pair<int, int>, Part> parts;  // of CAD face and label
+  std::map<int, double> face_area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 normal = frame * (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]) / 2;
+    Part& part = parts[{mesh.triangle_face[t], labels[t]}];
+    part.facing += normal;
+    part.area += normal.norm();
+    face_area[mesh.triangle_face[t]] += normal.norm();
+  }
+  return static_cast<int>(std::count_if(parts.begin(), parts.end(), [&](const auto& entry) {
+    const auto& [key, part] = entry;
+    return part.area > kLabelTuning.sliver * face_area[key.first] && folds(part.facing, key.second);
+  }));
 }
 
 }  // namespace polycube

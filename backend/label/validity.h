@@ -64,8 +64,11 @@ struct ChartGraph {
 /// `frame` takes the mesh to the frame of the labels.
 ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
-/// Of the charts of labels per triangle. Folded regions, of what a chart has of one CAD face, slivers aside, are counted but no part of the score: a small face
-/// may well be bent round to where its neighbours want it.
+/// Of the charts of labels per triangle, of which no normal is known.
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
+
+/// What labels per triangle have of single CAD faces, slivers aside, and fold as regions do. No fault by itself: a small face may well be bent round to where
+/// its neighbours want it.
+int count_folded_parts(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
 }  // namespace polycube

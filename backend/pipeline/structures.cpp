@@ -104,30 +104,26 @@ std::vector<LabelVariant> Structures::label_order() {
   } catch (const StageFailed&) {
     return {LabelVariant{}};
   }
-  const Structure& first = built({.labels = order.front()});
-  if (in_doubt(first)) sort_by_map(order);
-  if (first.failure || first.flipped > 0) prefer_facing(order);
+  if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
+  const Structure& best = built({.labels = order.front()});
+  if (best.failure || best.flipped > 0) prefer_facing(order);
   return order;
 }
 
 // Where the map of the first turns tets over, and regions of it stand square to their label's axis: those with fewer such regions and other frames, if nothing
 // else is wrong with them, by the tets that their maps turn over.
 void Structures::prefer_facing(std::vector<LabelVariant>& order) {
-  LabelChoice& choice = labellings(1);
-  const auto labelled = [&](const LabelVariant& v) -> const Labelled& {
-    return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
-  };
   const Labelled& first = labelled(order.front());
-  if (first.report.folded_regions == 0) return;
+  if (first.report.folded_parts == 0) return;
   std::vector<LabelVariant> more;
-  for (const LabelVariant& v : choice.facing()) {
+  for (const LabelVariant& v : labellings(1).facing()) {
     const Labelled& l = labelled(v);
     const auto is_the_same = [&](const LabelVariant& other) { return other.frame == v.frame && labelled(other).labelling.label == l.labelling.label; };
-    if (l.faults <= first.faults && l.report.folded_regions <= first.report.folded_regions && std::none_of(more.begin(), more.end(), is_the_same))
+    if (l.faults <= first.faults && l.report.folded_parts <= first.report.folded_parts && std::none_of(more.begin(), more.end(), is_the_same))
       more.push_back(v);
   }
   std::stable_sort(more.begin(), more.end(),
-                   [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_regions < labelled(y).report.folded_regions; });
+                   [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_parts < labelled(y).report.folded_parts; });
   more.insert(more.begin(), order.front());
   more.resize(std::min(more.size(), kPipelineTuning.mapped));
   const auto key = [&](const LabelVariant& v) {
@@ -139,6 +135,11 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   order.insert(order.begin(), more.begin(), more.end());
 }
 
+const Labelled& Structures::labelled(const LabelVariant& variant, double tet_size) {
+  LabelChoice& choice = labellings(tet_size);
+  return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(variant); });
+}
+
 const Labelled& Structures::labelled() {
   LabelChoice& choice = labellings(1);
   return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(choice.order().front()); });
@@ -146,9 +147,8 @@ const Labelled& Structures::labelled() {
 
 // Those that are as good as the first in all that can be said without a map.
 void Structures::sort_by_map(std::vector<LabelVariant>& order) {
-  LabelChoice& choice = labellings(1);
   const auto without_map = [&](const LabelVariant& v) {
-    const Labelled& l = clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
+    const Labelled& l = labelled(v);
     return std::tuple(l.faults, l.lost_features);
   };
   const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kPipelineTuning.mapped));
@@ -199,13 +199,9 @@ bool Structures::repeats(const StructurePlan& plan) { return built(plan).repeats
 
 // `made` becomes its labels and features.
 void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made) {
-  LabelChoice& choice = labellings(plan.tet_size);
-  const auto labelled = [&](const LabelVariant& v) -> const Labelled& {
-    return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(v); });
-  };
   // Where nothing is wrong, stricter labels would be the same.
-  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels)).faults == 0) return repeat(s);
-  const Labelled& chosen = labelled(plan.labels);
+  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels), plan.tet_size).faults == 0) return repeat(s);
+  const Labelled& chosen = labelled(plan.labels, plan.tet_size);
   const std::vector<char> out = left_out(plan);
   s.tets = chosen.mesh;
   s.features = clock_.stage("label", [&] { return find_features(model_, s.tets, chosen.labelling, out, monitor_); });

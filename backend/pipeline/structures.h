@@ -96,6 +96,7 @@ class Structures {
 
  private:
   LabelChoice& labellings(double tet_size);
+  const Labelled& labelled(const LabelVariant& variant, double tet_size = 1);
   void prefer_facing(std::vector<LabelVariant>& order);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.

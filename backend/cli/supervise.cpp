@@ -55,9 +55,15 @@ class SharedNote {
   StageNote* note_ = nullptr;
 };
 
+void say_cancelled() { std::fputs("polycube: cancelled\n", stderr); }
+
 [[noreturn]] void be_child(const std::function<int(StageNote&)>& work, StageNote& note, pid_t parent, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for the mesh of a parent that was killed
-  if (getppid() != parent || g_stops > 0) _exit(kStopped);
+  if (getppid() != parent) _exit(kStopped);
+  if (g_stops > 0) {
+    say_cancelled();
+    _exit(kStopped);
+  }
   // What ends the engine alone, such as its own limit of processor time, is not asked of the command.
   for (const int end : {SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM}) std::signal(end, SIG_DFL);
   rlimit no_core{};
@@ -126,7 +132,11 @@ int supervise(const std::function<int(StageNote&)>& work, const Supervision& sup
   for (const std::string& output : supervision.outputs) Draft::discard(output, child);
   if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   if (killed || g_stops > 0) {
-    std::fprintf(stderr, "polycube: %s\n", g_stops > 0 ? "cancelled" : "out of time");
+    if (g_stops > 0) {
+      say_cancelled();
+    } else {
+      std::fputs("polycube: out of time\n", stderr);
+    }
     return kStopped;
   }
   const std::string stage = note.get().get();

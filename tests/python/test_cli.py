@@ -183,6 +183,24 @@ class Cli(FolderTest):
         self.assertEqual((process.returncode, error), (3, "polycube: cancelled\n"))
         self.assertEqual(os.listdir(temporary), [])
 
+    def test_stopped_before_the_engine_began(self):
+        """The temporary folder is made just before the engine's process is: some of these signals come in between."""
+        part = self.save(plate())
+        temporary = os.path.join(self.folder, "tmp")
+        os.mkdir(temporary)
+        for _ in range(40):
+            process = subprocess.Popen(
+                [PROGRAM, "mesh", part, "-o", self.path("a.inp"), "--size", "0.4"],
+                stderr=subprocess.PIPE,
+                text=True,
+                env=dict(os.environ, TMPDIR=temporary),
+            )
+            while not os.listdir(temporary):
+                pass
+            process.send_signal(signal.SIGTERM)
+            _, error = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, error), (3, "polycube: cancelled\n"))
+
     def test_nobody_reads_what_is_printed(self):
         reading, writing = os.pipe()
         os.close(reading)

@@ -12,6 +12,7 @@ from FreeCAD import Vector
 
 from freecad import polycube
 from freecad.polycube import ccx, deck, objects
+from freecad.polycube.estimate import StressError
 
 YOUNG = solve_tests.YOUNG
 
@@ -159,6 +160,10 @@ class Runs(solve_tests.SolveTest):
             self.assertAlmostEqual(max(solution.result.StressError), max(found.percent.values()), delta=1e-6)
             worst.append(found.faces[0][1])
         self.assertLess(worst[1], worst[0])
+
+    def test_certainty_is_said_in_plain_figures(self):
+        line = StressError({}, [("Face5", 18.4, 131.7), ("Face7", 0.0634, 9.81)]).line()
+        self.assertTrue(line.endswith("on Face5 (18 MPa, 132 %), Face7 (0.063 MPa, 9.8 %)"), line)
 
     def test_an_input_file_in_parts(self):
         """FreeCAD writes the mesh, and each kind of load, to files of their own."""

@@ -17,8 +17,13 @@ class StressError:
 
     def line(self):
         """One line for the log; "" where no face has a stress."""
-        named = ["{} ({:.2g} MPa, {:.2g} %)".format(*face) for face in self.faces]
+        named = ["{} ({} MPa, {} %)".format(name, _two_digits(stress), _two_digits(percent)) for name, stress, percent in self.faces]
         return "stresses differ most from cell to cell, and a finer mesh changes them most, on " + ", ".join(named) if named else ""
+
+
+def _two_digits(value):
+    """As people write it, "130" and not "1.3e+02"."""
+    return "{:.0f}".format(value) if value >= 10 else "{:.2g}".format(value)
 
 
 def stress_error(path, result, mesh):

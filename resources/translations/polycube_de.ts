@@ -376,6 +376,10 @@
       <translation>Die schlechtesten Zellen; ein Klick markiert eine, ein Doppelklick sieht sie aus der Nähe an</translation>
     </message>
     <message>
+      <source>{} lost CAD edges</source>
+      <translation>{} verlorene CAD-Kanten</translation>
+    </message>
+    <message>
       <source>The mesh is out of date: press Apply.</source>
       <translation>Das Netz ist nicht aktuell: Anwenden drücken.</translation>
     </message>
@@ -408,12 +412,16 @@
       <translation>Vom CAD-Modell: </translation>
     </message>
     <message>
-      <source>{} lost CAD edges</source>
-      <translation>{} verlorene CAD-Kanten</translation>
-    </message>
-    <message>
       <source>inside</source>
       <translation>innen</translation>
+    </message>
+    <message>
+      <source>{} of {} cells shown</source>
+      <translation>{} von {} Zellen gezeigt</translation>
+    </message>
+    <message>
+      <source>No cell is like this: nothing is shown</source>
+      <translation>Keine Zelle ist so: nichts wird gezeigt</translation>
     </message>
     <message>
       <source>Von Mises stress</source>

@@ -7,7 +7,7 @@ shift
 mkdir -p "$out"
 out=$(cd "$out" && pwd)
 export POLYCUBE_GUI_OUT="$out" QTWEBENGINE_DISABLE_SANDBOX=1
-[ $# -gt 0 ] || set -- gui_first gui_tests gui_panel gui_keys gui_refine gui_blocks gui_aids gui_solve gui_user gui_rounds gui_openings
+[ $# -gt 0 ] || set -- gui_first gui_tests gui_panel gui_keys gui_refine gui_follow gui_blocks gui_aids gui_solve gui_user gui_rounds gui_openings
 worst=0
 for module; do
     # FreeCAD's exit can crash after all is done: the status is what the tests wrote.

@@ -5,6 +5,7 @@ import FreeCADGui
 from PySide import QtGui
 
 from . import engine, label_view, shapes
+from .errors import InvalidInput
 from .fields import OptionForm
 from .folding import Section
 from .words import tr
@@ -21,6 +22,7 @@ class AxesSection(Section):
         self._automatic = {}  # labels of faces before they were set by hand, as far as is known
         self._is_old = False
         self._mesh_was_visible = False
+        self._shape = None  # signature of what the labels are of that were asked for last
         self._fits = False  # whether the view is to take in what is drawn next
         self.preview = QtGui.QCheckBox(tr("Show on the part"))
         self.preview.setToolTip(tr("Paints each face by its axis; a click on a face gives it another one"))
@@ -91,9 +93,26 @@ class AxesSection(Section):
     def update(self):
         """Computes the labels anew, after what runs now."""
         self._is_old = True
+        self._shape = self._signature()
         if not self._panel.process:
             self._is_old = False
             self._panel.start_labels(self.beside.isChecked())
+
+    def _signature(self):
+        try:
+            return shapes.signature(shapes.shape_of(self._panel.part)) if self._panel.part_exists() else None
+        except InvalidInput:
+            return None
+
+    def follow(self):
+        """The part may be another: labels of what it was go."""
+        if not self.preview.isChecked():
+            return
+        now = self._signature()
+        if now is None:
+            self.preview.setChecked(False)
+        elif self._shape is not None and not shapes.same(self._shape, now):
+            self.update()
 
     def _beside(self, wanted):
         """With the polycube, or without it again. It is drawn where the labels are."""

@@ -1,7 +1,6 @@
 """Some cells of a mesh by themselves in the 3D view: those of a bar, those below a threshold, those on one side of a plane."""
 
 import FreeCAD
-import FreeCADGui
 import numpy
 from pivy import coin
 
@@ -15,7 +14,7 @@ class CellOverlay(overlay.Overlay):
     """Draws whole cells of a measures.Cells, which breathe meanwhile."""
 
     def __init__(self, document, standing, cells):
-        self._cells = cells
+        self.cells = cells
         sides = cells.nodes[:, :8][:, measures.SIDES]  # (cells, 6, 4)
         self._sides = sides.reshape(-1, 4)
         # Three corners tell a side; as one number, they are sorted ten times as fast as rows.
@@ -44,7 +43,7 @@ class CellOverlay(overlay.Overlay):
         seen = chosen[cell] & ~numpy.where(self._behind >= 0, chosen[self._behind], False)
         paint = numpy.tile(_PLAIN, (len(chosen), 1)) if colours is None else colours
         if seen.any():
-            self.draw(*overlay.quads(self._cells.points, self._sides[seen], paint[cell[seen]]))
+            self.draw(*overlay.quads(self.cells.points, self._sides[seen], paint[cell[seen]]))
         else:
             self.draw()
         return int(seen.sum())
@@ -54,19 +53,27 @@ class Hidden:
     """A mesh that is not drawn while something else is, without a change of the document."""
 
     def __init__(self, view):
-        self._switch = view.SwitchNode
-        self._before = self._switch.whichChild.getValue()
-        self._switch.whichChild = -1
+        self._view, self._switch = view, view.SwitchNode
+        self._before = -1
+        self.again()
 
-    def end(self):
-        """Draws it again, unless that was done meanwhile."""
-        if self._switch.whichChild.getValue() == -1:
+    def again(self):
+        """Hides it, where it was shown meanwhile."""
+        shown = self._switch.whichChild.getValue()
+        if shown != -1:
+            self._before, self._switch.whichChild = shown, -1
+
+    def end(self, is_there):
+        """Draws it again, unless it was hidden in the document meanwhile. `is_there`: whether the mesh is still in its document."""
+        if self._switch.whichChild.getValue() == -1 and (not is_there or self._view.Visibility):
             self._switch.whichChild = self._before
 
 
 def zoom(document, standing, points, room=1.0):
     """Has the active view look at some points, with room around: so many times their extent."""
-    view = FreeCADGui.getDocument(document.Name).activeView()
+    view = overlay.view_of(document)
+    if not view:
+        return
     box = coin.SbBox3f()
     for point in points:
         box.extendBy(coin.SbVec3f(*standing.multVec(FreeCAD.Vector(*point))))

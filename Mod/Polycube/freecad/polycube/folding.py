@@ -24,6 +24,7 @@ class Section(QtGui.QWidget):
         self.body.setContentsMargins(8, 0, 0, 4)
         self.told = QtGui.QLabel()
         self.told.setWordWrap(True)
+        self.told.setTextFormat(QtCore.Qt.PlainText)
         self.told.setVisible(False)
         layout = QtGui.QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)

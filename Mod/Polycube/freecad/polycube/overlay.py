@@ -8,11 +8,25 @@ from pivy import coin
 _LINES_FORWARD = 1e-4
 
 
+def view_of(document):
+    """The 3D view of a document to draw in: the active one, else another, which comes to the front, for a page or a table may be there; None if there is none."""
+    gui = FreeCADGui.getDocument(document.Name)
+    active = gui.activeView()
+    if hasattr(active, "getSceneGraph"):
+        return active
+    views = gui.mdiViewsOfType("Gui::View3DInventor")
+    if not views:
+        return None
+    FreeCADGui.getMainWindow().setActiveWindow(views[-1])
+    return views[-1]
+
+
 class Overlay:
-    """A node in the active 3D view of a document. Clicks go through to what is behind. `standing`: placement of the coordinates that are drawn in."""
+    """A node in a 3D view of a document, in no view where there is none. Clicks go through to what is behind. `standing`: placement of the coordinates that are drawn in."""
 
     def __init__(self, document, standing):
-        self._root = FreeCADGui.getDocument(document.Name).activeView().getSceneGraph()
+        view = view_of(document)
+        self._root = view.getSceneGraph() if view else coin.SoSeparator()
         self._standing = coin.SoTransform()
         self._standing.translation = tuple(standing.Base)
         self._standing.rotation = standing.Rotation.Q

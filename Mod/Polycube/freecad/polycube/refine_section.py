@@ -20,7 +20,9 @@ class _ValueEditor(QtGui.QStyledItemDelegate):
         self._section = section
 
     def createEditor(self, parent, option, index):
-        obj = self._section.refinements()[index.row()]
+        obj = self._section.of_row(index.row())
+        if obj is None:
+            return None
         kind_of_property, _, default, _ = refinements.kind_of(obj).value
         if kind_of_property == "App::PropertyEnumeration":
             editor = QtGui.QComboBox(parent)
@@ -41,6 +43,7 @@ class RefineSection(Section):
         super().__init__(tr("Refine"), "refine_section", is_open=False, tooltip=tooltip)
         self._panel = panel
         self._filling = False
+        self._objects, self._shown = [], []  # what the table's rows show
         self.table = QtGui.QTableWidget(0, 3)
         self.table.setHorizontalHeaderLabels([tr("What"), tr("Where"), tr("Value")])
         self.table.setMinimumSize(60, 90)
@@ -86,7 +89,8 @@ class RefineSection(Section):
 
     def show_refinements(self, chosen=None):
         """The table anew; the row of the object `chosen` is chosen."""
-        found = self.refinements()
+        found = self._objects = self.refinements()
+        self._shown = self._state()
         self._filling = True
         self.table.setRowCount(len(found))
         for row, obj in enumerate(found):
@@ -108,6 +112,31 @@ class RefineSection(Section):
         if chosen in found:
             self.set_open(True)
             self.table.selectRow(found.index(chosen))
+
+    def follow(self):
+        """Refinements came, went, or ask for something else: the table anew, where it is not as they are."""
+        if self._shown != self._state():
+            chosen = self._chosen()
+            self.show_refinements()
+            if chosen in self._objects:
+                self._filling = True  # it was chosen before, its places are selected already
+                self.table.selectRow(self._objects.index(chosen))
+                self._filling = False
+
+    def _state(self):
+        return [
+            (obj.Name, obj.Label, obj.Suppressed, refinements.places_of(obj), refinements.value_of(obj), refinements.fault(obj)) for obj in self.refinements()
+        ]
+
+    def _chosen(self):
+        """The refinement of the row that is chosen, or None."""
+        row = self.table.currentRow()
+        return self.of_row(row) if row >= 0 and self.table.selectedItems() else None
+
+    def of_row(self, row):
+        """The refinement that a row of the table shows, None of one that is gone."""
+        obj = self._objects[row] if row < len(self._objects) else None
+        return obj if shapes.exists(obj) else None
 
     def refinements(self):
         return [obj for obj in self._panel.obj.Refinements if refinements.is_refinement(obj)] if self._panel.mesh_exists() else []
@@ -171,8 +200,11 @@ class RefineSection(Section):
     def _edited(self, item):
         if self._filling:
             return
-        obj = self.refinements()[item.row()]
+        obj = self.of_row(item.row())
         self.say("")
+        if obj is None:
+            self.show_refinements()
+            return
         try:
             if item.column() == _WHAT:
                 suppressed = item.checkState() == QtCore.Qt.Unchecked
@@ -187,20 +219,18 @@ class RefineSection(Section):
         self._panel.changed()
 
     def _remove(self):
-        row = self.table.currentRow()
-        if row < 0 or not self.table.selectedItems():
+        obj = self._chosen()
+        if obj is None:
             return
-        obj = self.refinements()[row]
         with api.transaction(obj.Document, tr("Delete refinement")):
             FreeCADGui.doCommand("{}.removeObject({!r})".format(macro.document(obj.Document), obj.Name))
         self.show_refinements()
         self._panel.changed()
 
     def _show_places(self):
-        row = self.table.currentRow()
-        if self._filling or row < 0 or not self.table.selectedItems() or self._panel.axes.clicks:
-            return
-        self._panel.select(refinements.places_of(self.refinements()[row]))
+        obj = None if self._filling or self._panel.axes.clicks else self._chosen()
+        if obj is not None:
+            self._panel.select(refinements.places_of(obj))
 
     def _text_to_objects(self):
         """What faces and edges of the text stand for becomes objects; the rest stays text."""
@@ -223,6 +253,7 @@ class RefineSection(Section):
                     rest[name] = ",".join(left)
                 now = option_table.without_defaults({**before, **rest})
                 option_table.write(panel.obj, now)
+            panel.note()
         except InvalidInput as error:
             self._refuse(error)
             return
@@ -241,7 +272,7 @@ def _as_refinement(option, item):
     if option == "keep_faces":
         return "keep", [item], None
     if option == "sizes" and what.startswith(("Face", "Solid")):
-        return "size", [what], float(value)
+        return "size", [what], value
     if option == "refine" and what.startswith(refinements.KINDS["levels"].takes):
         return "levels", [what], value
     if option in ("divisions", "bias") and what.startswith("Edge"):

@@ -26,6 +26,7 @@ class ResultSection(Section):
     def __init__(self, panel):
         super().__init__(tr("Result"), "quality")
         self._panel = panel
+        self._shown = None  # which mesh: see _state()
         self._cells = self._cells_of = None  # computed when they are first asked for, of that Report
         self._cell_overlay = self._hidden = self._lost_overlay = None
         self._updating = self._is_at_work = False
@@ -88,6 +89,7 @@ class ResultSection(Section):
             for widget in row:
                 line.addWidget(widget)
             tools.addLayout(line)
+        tools.addWidget(self.told)
         tools.addWidget(self.lost)
         tools.addWidget(self.worst)
         self.body.addWidget(self.summary)
@@ -104,11 +106,23 @@ class ResultSection(Section):
         obj = self._panel.obj
         if not obj or not obj.Report:
             return
+        self._shown = self._state()
         if result:
             self._cells, self._cells_of = Cells.of_result(result, self._breathe), obj.Report
         self.clear()
-        report = json.loads(obj.Report)
-        self._report = report
+        self._report = json.loads(obj.Report)
+        self._tell()
+        self._tools.setEnabled(True)
+        self.blocks.setVisible(bool(obj.Blocks))  # documents of older versions have none
+        edges = self._report["cad"]["edges"]
+        missing = edges["lost"] + edges["ignored"]
+        self.lost.setVisible(bool(missing))
+        self.lost.setText(tr("{} lost CAD edges").format(len(missing)))
+        self._judge()
+
+    def _tell(self):
+        """The mesh in numbers, and whether it is out of date."""
+        obj, report = self._panel.obj, self._report
         quality, captured = report["quality"], report["cad"]
         lines = [tr("The mesh is out of date: press Apply.")] if obj.MeshState == objects.OUTDATED else []
         lines.append(tr("{} cells, {} nodes").format(count(obj.Hexahedra), count(obj.NodeCount)))
@@ -119,12 +133,30 @@ class ResultSection(Section):
         captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in (noop("faces"), noop("edges"), noop("vertices")))
         lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
         self.summary.setText("\n".join(lines))
-        self._tools.setEnabled(True)
-        self.blocks.setVisible(bool(obj.Blocks))  # documents of older versions have none
-        missing = captured["edges"]["lost"] + captured["edges"]["ignored"]
-        self.lost.setVisible(bool(missing))
-        self.lost.setText(tr("{} lost CAD edges").format(len(missing)))
-        self._judge()
+
+    def _state(self):
+        """What tells the mesh that there is from others, None where there is none."""
+        obj = self._panel.obj
+        return (obj.Name, obj.MeshedCells, obj.Report) if self._panel.mesh_exists() and obj.Report else None
+
+    def follow(self):
+        """The mesh may be another, as after undo, out of date, or gone."""
+        now = self._state()
+        if now is None and self._shown:
+            self._shown = None
+            self.clear()
+            self.summary.setText(tr("No mesh yet"))
+            self.histogram.set_counts([0] * BARS, self.measure)
+            self.worst.setRowCount(0)
+            self.lost.setVisible(False)
+            self._tools.setEnabled(False)
+        elif now and now != self._shown:
+            self.show_mesh()
+        elif now:
+            self._tell()
+
+    def is_at_work(self):
+        return self._is_at_work
 
     @property
     def measure(self):
@@ -251,10 +283,15 @@ class ResultSection(Section):
 
     def _draw(self, chosen):
         obj, cells = self._panel.obj, self.cells()
+        if self._cell_overlay and self._cell_overlay.cells is not cells:
+            self._end_cells()
         if not self._cell_overlay:
             self._cell_overlay = CellOverlay(obj.Document, shapes.standing(obj), cells)
             self._hidden = Hidden(obj.ViewObject)
+        self._hidden.again()
         self._cell_overlay.show(chosen, self._cell_colours())
+        shown = int(chosen.sum())
+        self.say(tr("{} of {} cells shown").format(count(shown), count(len(chosen))) if shown else tr("No cell is like this: nothing is shown"))
 
     def _cell_colours(self):
         if self.blocks.isChecked():
@@ -269,7 +306,8 @@ class ResultSection(Section):
     def _end_cells(self):
         if self._cell_overlay and self._panel.document_is_open():
             self._cell_overlay.remove()
-            self._hidden.end()
+            self._hidden.end(self._panel.mesh_exists())
+        self.say("")
         self._cell_overlay = self._hidden = None
 
     def _colour(self):

@@ -55,6 +55,7 @@ class RunSection(QtGui.QWidget):
         self.status = QtGui.QLabel()
         self.status.setObjectName("status")
         self.status.setWordWrap(True)
+        self.status.setTextFormat(QtCore.Qt.PlainText)  # names of objects may have what looks like HTML
         self.status.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         self.tries = QtGui.QWidget()
         self.tries.setVisible(False)

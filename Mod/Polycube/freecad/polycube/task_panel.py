@@ -15,6 +15,7 @@ from .cell_view import zoom
 from .compat import print_error, qt_number
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .folding import Section
+from .following import Follower
 from .refine_section import RefineSection
 from .result_section import ResultSection
 from .run import LiveSession, Run
@@ -59,6 +60,7 @@ class MeshPanel:
         self._shown_before = None  # what show_mesh_alone() has changed: whether the mesh was shown, and the meshes of results that were
         self._taking = False
         self._filling = True
+        self._seen = {}  # what of the document the panel has taken note of, see follow()
         self._meshed_options, self._asked, self._meshed_shape, self._before = {}, {}, [], {}
         self.options = option_table.read(obj) if obj else preferences.panel_defaults()
         self.analysis_box = AnalysisBox(FreeCAD.getDocument(self.document_name), objects.analysis_of(obj) if obj else None, analysis)
@@ -69,7 +71,9 @@ class MeshPanel:
         self._filling = False
         self.result.show_mesh()
         self.changed()
+        self.note()
         FreeCAD.addDocumentObserver(self)
+        self._follower = Follower(self)
         QtCore.QTimer.singleShot(0, _prepare_buttons)
 
     def _make_form(self):
@@ -83,6 +87,7 @@ class MeshPanel:
         form.parameters = QtGui.QWidget()
         form.part = QtGui.QLabel()
         form.part.setWordWrap(True)
+        form.part.setTextFormat(QtCore.Qt.PlainText)
         size = Section(tr("Size"), "size_section")
         self.size_form = fields.OptionForm(plain, self.changed)
         self.hint = SizeHint(self)
@@ -100,6 +105,7 @@ class MeshPanel:
         head.addRow(QtGui.QLabel(tr("Analysis:")), self.analysis_box)
         form.uncaptured = QtGui.QLabel()
         form.uncaptured.setWordWrap(True)
+        form.uncaptured.setTextFormat(QtCore.Qt.PlainText)
         head.addRow(form.uncaptured)
         self.analysis_box.currentIndexChanged.connect(lambda _: self.show_uncaptured())
         parameters = QtGui.QVBoxLayout(form.parameters)
@@ -423,6 +429,7 @@ class MeshPanel:
                 other.ViewObject.hide()
             analyses.move(self.obj, analysis)
             warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh, self._asked)
+        self.note()
         if is_new:
             macro.created(self.obj, self._meshed_options)
         else:
@@ -447,6 +454,7 @@ class MeshPanel:
     def _end(self):
         """Nothing goes on that the panel has begun, and its marks go."""
         FreeCAD.removeDocumentObserver(self)
+        self._follower.end()
         if self.process:
             process = self.process
             self.cancel()
@@ -465,6 +473,57 @@ class MeshPanel:
         else:
             FreeCADGui.Control.closeDialog()
         return True
+
+    # --- the document changes meanwhile --------------------------------------------------------------------------------------
+
+    def is_at_work(self):
+        """Whether the panel changes the document itself just now, or is in the middle of showing cells."""
+        return self._taking or self.result.is_at_work()
+
+    def _state(self):
+        """What of the document the panel shows, but for what its sections compare themselves."""
+        has_mesh = self.mesh_exists()
+        try:
+            options = option_table.read(self.obj) if has_mesh else None
+        except InvalidInput:  # Apply tells
+            options = None
+        return {
+            "options": options,
+            "analysis": objects.analysis_of(self.obj) if has_mesh else None,
+            "part": self.part.Label if self.part_exists() else tr("none"),
+        }
+
+    def note(self):
+        """What the document holds now is what the panel has given it: nothing to be followed."""
+        self._seen = self._state()
+
+    def follow(self, shape_may_differ):
+        """Undo, the tree, the property editor or a macro has changed something: what is shown of it is shown anew. What the user has typed meanwhile stays."""
+        now, before = self._state(), self._seen
+        self._seen = now
+        self.form.part.setText(now["part"])
+        self._filling = True
+        if now["options"] is not None and now["options"] != before["options"]:
+            self._follow_options(before["options"] or {}, now["options"])
+        self._filling = False
+        self.analysis_box.follow(now["analysis"], now["analysis"] != before["analysis"])
+        self.refine.follow()
+        self.result.follow()
+        if not self.process:
+            self.show_uncaptured()
+            if now != before or shape_may_differ:
+                self.changed()
+        if shape_may_differ:
+            self.axes.follow()
+
+    def _follow_options(self, before, now):
+        """Fields of options that the object has others of than before."""
+        for form in self._forms:
+            for name, one in form.fields.items():
+                if now.get(name) != before.get(name):
+                    one.value = now.get(name, one.option["default"])
+        if now.get("labels", {}) != before.get("labels", {}):
+            self.axes.set_labels(now.get("labels", {}))
 
     # --- what sections ask ---------------------------------------------------------------------------------------------------
 

@@ -200,6 +200,45 @@ class FromTheSelection(RefineTest):
         self.press("Ok")
 
 
+class Copied(RefineTest):
+    def with_copy(self, with_part):
+        """A refinement of a mesh, and what FreeCAD's Copy and Paste make of it, with a copy of the part or without."""
+        panel = self.open_panel(self.box)
+        self.choose("Face1", "Face2")
+        layers = self.add(panel, "layers")
+        self.press("Ok")
+        process_events(0.3)
+        copy = self.document.copyObject([self.box, layers] if with_part else layers)
+        process_events(0.3)
+        return panel.obj, layers, copy[1] if with_part else copy
+
+    def test_it_joins_the_mesh_of_its_part(self):
+        mesh, layers, copy = self.with_copy(False)
+        self.assertEqual((mesh.Refinements, copy.Fault), ([layers, copy], ""))
+        self.assertEqual(refinements.places_of(copy), ["Face1", "Face2"])
+
+    def test_with_a_copy_of_the_part_it_waits_to_be_dropped_onto_a_mesh(self):
+        mesh, layers, copy = self.with_copy(True)
+        self.assertEqual(mesh.Refinements, [layers])
+        self.assertIn("belongs to no mesh", copy.Fault)
+        view = mesh.ViewObject
+        self.assertTrue(view.Proxy.canDropObject(copy) and view.Proxy.canDragObject(layers))
+        self.assertFalse(view.Proxy.canDropObject(self.box))
+        view.dropObject(copy)
+        self.assertEqual((mesh.Refinements, copy.Fault, refinements.fault(copy)), ([layers, copy], "", ""))
+        view.dragObject(layers)
+        self.assertEqual(mesh.Refinements, [copy])
+        self.assertIn("belongs to no mesh", layers.Fault)
+
+    def test_with_its_mesh(self):
+        mesh, layers, copy = self.with_copy(False)
+        self.document.copyObject(mesh, True)
+        process_events(0.3)
+        other = next(obj for obj in self.document.Objects if objects.is_polycube(obj) and obj != mesh)
+        self.assertEqual(len(other.Refinements), 2)
+        self.assertEqual(mesh.Refinements, [layers, copy])
+
+
 class AsText(RefineTest):
     def test_text_becomes_objects(self):
         panel = self.meshed()

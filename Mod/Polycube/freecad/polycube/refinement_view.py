@@ -1,6 +1,8 @@
 """What the tree and the mouse do with a refinement."""
 
-from . import objects, refinements, resources
+from PySide import QtCore
+
+from . import objects, refinements, resources, shapes
 
 
 class RefinementView(objects.Stateless):
@@ -11,6 +13,12 @@ class RefinementView(objects.Stateless):
 
     def attach(self, view):
         self.Object = view.Object
+        if view.Object.Document.Importing:  # a copy; the mesh that has it may be copied after it
+            QtCore.QTimer.singleShot(0, self._adopt)
+
+    def _adopt(self):
+        if shapes.exists(self.Object):
+            refinements.adopt(self.Object)
 
     def getIcon(self):
         obj = self.Object

@@ -80,6 +80,34 @@ def mesh_of(obj):
     return next((mesh for mesh in obj.InList if obj in getattr(mesh, "Refinements", ())), None)
 
 
+def move(obj, mesh):
+    """Has a refinement ask of this mesh what it asked of another, or of none, at places of the same names; of none where `mesh` is None."""
+    before = mesh_of(obj)
+    if before is not None and before != mesh:
+        before.Refinements = [one for one in before.Refinements if one != obj]
+    if mesh is not None:
+        places, part = places_of(obj), compat.part_of(mesh)
+        solid = shapes.solid_object(part) if part else None
+        if solid and any(owner != solid for owner, _ in obj.References):
+            obj.References = [(solid, places)]
+        if before != mesh:
+            mesh.Refinements = list(mesh.Refinements) + [obj]
+    obj.Proxy.execute(obj)
+
+
+def adopt(obj):
+    """A copy that belongs to no mesh becomes one of the mesh of the part that it refers to, where there is one such mesh."""
+    if mesh_of(obj) is not None:
+        return
+    owners = {owner for owner, _ in obj.References}
+    found = []
+    for mesh in obj.Document.findObjects("Fem::FemMeshObject"):
+        part = compat.part_of(mesh) if hasattr(mesh, "Refinements") else None
+        if part and shapes.solid_object(part) in owners:
+            found.append(mesh)
+    move(obj, found[0] if len(found) == 1 else None)
+
+
 def places_of(obj):
     """Names of the faces or edges."""
     return [name for _, names in obj.References for name in ([names] if isinstance(names, str) else names) if name]
@@ -170,7 +198,7 @@ def fault(obj):
     """What is wrong with a refinement, in a line; empty if nothing is."""
     mesh = mesh_of(obj)
     if mesh is None:
-        return "it belongs to no mesh"
+        return "it belongs to no mesh: drop it onto one in the tree"
     part = compat.part_of(mesh)
     if part is None:
         return "the mesh has no part"

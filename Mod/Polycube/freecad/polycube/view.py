@@ -4,7 +4,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from . import macro, objects, resources
+from . import macro, objects, refinements, resources
 
 _ICONS = {objects.EMPTY: "Polycube_MeshEmpty", objects.CURRENT: "Polycube_MeshFromShape", objects.OUTDATED: "Polycube_MeshOutOfDate"}
 
@@ -27,6 +27,26 @@ class PolycubeMeshView(objects.Stateless):
 
     def claimChildren(self):
         return list(getattr(self.Object, "Refinements", ()))
+
+    # Refinements can be dragged in the tree from one mesh to another.
+
+    def canDragObjects(self):
+        return True
+
+    canDropObjects = canDragObjects
+
+    def canDragObject(self, obj):
+        return refinements.is_refinement(obj)
+
+    def canDropObject(self, obj):
+        return refinements.is_refinement(obj) and obj.Document == self.Object.Document
+
+    def dragObject(self, view, obj):
+        del view
+        refinements.move(obj, None)
+
+    def dropObject(self, view, obj):
+        refinements.move(obj, view.Object)
 
     def doubleClicked(self, view):
         import FemGui

@@ -12,6 +12,26 @@
       <translation>keine</translation>
     </message>
     <message>
+      <source>Hexahedral mesh from shape</source>
+      <translation>Hexaedernetz aus Form</translation>
+    </message>
+    <message>
+      <source>Hexahedral mesh</source>
+      <translation>Hexaedernetz</translation>
+    </message>
+    <message>
+      <source>Mesh parameters</source>
+      <translation>Parameter des Netzes</translation>
+    </message>
+    <message>
+      <source>Refinement</source>
+      <translation>Verfeinerung</translation>
+    </message>
+    <message>
+      <source>Mesh of the analysis</source>
+      <translation>Netz der Analyse</translation>
+    </message>
+    <message>
       <source>Axes of faces</source>
       <translation>Achsen der Flächen</translation>
     </message>
@@ -72,12 +92,12 @@
       <translation>automatisch</translation>
     </message>
     <message>
-      <source>Hexahedral mesh from shape</source>
-      <translation>Hexaedernetz aus Form</translation>
-    </message>
-    <message>
       <source>Creates a FEM mesh of hexahedra from the selected solid, or from several</source>
       <translation>Erzeugt ein FEM-Netz aus Hexaedern vom gewählten Volumenkörper oder von mehreren</translation>
+    </message>
+    <message>
+      <source>Compound of the parts to mesh</source>
+      <translation>Verbund der Bauteile zum Vernetzen</translation>
     </message>
     <message>
       <source>Solve with CalculiX</source>
@@ -88,12 +108,20 @@
       <translation>Löst die aktive Analyse mit jeder Last auf ihren Hexaedern, mit Elementen C3D20R (erste Ordnung: C3D8I), und lädt die Ergebnisse</translation>
     </message>
     <message>
+      <source>Cancel</source>
+      <translation>Abbrechen</translation>
+    </message>
+    <message>
       <source>Guide to hexahedral meshes</source>
       <translation>Anleitung zu Hexaedernetzen</translation>
     </message>
     <message>
       <source>From a first mesh to stresses, with pictures: refinement, what to do when a part is refused, limits</source>
       <translation>Vom ersten Netz bis zu Spannungen, mit Bildern: Verfeinerung, was zu tun ist, wenn ein Teil abgelehnt wird, Grenzen</translation>
+    </message>
+    <message>
+      <source>Convergence series</source>
+      <translation>Konvergenzreihe</translation>
     </message>
     <message>
       <source>Element size</source>
@@ -134,6 +162,14 @@
     <message>
       <source>Local refinement</source>
       <translation>Örtliche Verfeinerung</translation>
+    </message>
+    <message>
+      <source>1st</source>
+      <translation>1.</translation>
+    </message>
+    <message>
+      <source>2nd</source>
+      <translation>2.</translation>
     </message>
     <message>
       <source>From {} to {}{}.</source>
@@ -210,10 +246,6 @@
     <message>
       <source>Select faces, edges or vertices of the part in the 3D view, then press Add.</source>
       <translation>Wählen Sie Flächen, Kanten oder Ecken des Bauteils in der 3D-Ansicht, dann Neu.</translation>
-    </message>
-    <message>
-      <source>Refinement</source>
-      <translation>Verfeinerung</translation>
     </message>
     <message>
       <source>Delete refinement</source>
@@ -388,8 +420,8 @@
       <translation>{} Zellen, {} Knoten</translation>
     </message>
     <message>
-      <source>Scaled Jacobian: min {:.3f}, mean {:.3f}</source>
-      <translation>Skalierte Jacobi-Determinante: kleinste {:.3f}, Mittel {:.3f}</translation>
+      <source>Scaled Jacobian: min {}, mean {}</source>
+      <translation>Skalierte Jacobi-Determinante: kleinste {}, Mittel {}</translation>
     </message>
     <message>
       <source>Worst cells: </source>
@@ -512,8 +544,8 @@
       <translation>alle CAD-Kanten bis auf {}</translation>
     </message>
     <message>
-      <source>Best so far: valid, {}, worst cell {:.2f}</source>
-      <translation>Bestes bisher: gültig, {}, schlechteste Zelle {:.2f}</translation>
+      <source>Best so far: valid, {}, worst cell {}</source>
+      <translation>Bestes bisher: gültig, {}, schlechteste Zelle {}</translation>
     </message>
     <message>
       <source>Count cells</source>
@@ -546,10 +578,6 @@
     <message>
       <source>{} cells with these axes and sizes</source>
       <translation>{} Zellen mit diesen Achsen und Größen</translation>
-    </message>
-    <message>
-      <source>Hexahedral mesh</source>
-      <translation>Hexaedernetz</translation>
     </message>
     <message>
       <source>Try other axes of faces, or another frame.</source>
@@ -590,10 +618,6 @@
     <message>
       <source>The mesher is running: wait, or stop it with Cancel.</source>
       <translation>Der Vernetzer läuft: warten Sie, oder halten Sie ihn mit Abbrechen an.</translation>
-    </message>
-    <message>
-      <source>Mesh parameters</source>
-      <translation>Parameter des Netzes</translation>
     </message>
     <message>
       <source>The mesher is running already.</source>
@@ -652,8 +676,8 @@
       <translation>Warnung: </translation>
     </message>
     <message>
-      <source>Meshed: {} cells, {} nodes, worst cell {:.2f}.</source>
-      <translation>Vernetzt: {} Zellen, {} Knoten, schlechteste Zelle {:.2f}.</translation>
+      <source>Meshed: {} cells, {} nodes, worst cell {}.</source>
+      <translation>Vernetzt: {} Zellen, {} Knoten, schlechteste Zelle {}.</translation>
     </message>
     <message>
       <source>{} warnings, see the log: {} ...</source>
@@ -672,8 +696,20 @@
       <translation>{} weitere</translation>
     </message>
     <message>
-      <source>Cancel</source>
-      <translation>Abbrechen</translation>
+      <source>Task panel</source>
+      <translation>Aufgaben</translation>
+    </message>
+    <message>
+      <source>Close the open task panel first.</source>
+      <translation>Zuerst den offenen Aufgabenbereich schließen.</translation>
+    </message>
+    <message>
+      <source>The mesher is running for this object. Cancel it first.</source>
+      <translation>Der Vernetzer arbeitet an diesem Objekt. Zuerst abbrechen.</translation>
+    </message>
+    <message>
+      <source>{} is the mesh of {}. Delete it?</source>
+      <translation>{} ist das Netz von {}. Löschen?</translation>
     </message>
     <message>
       <source>Edge length of the hexahedra. Default: by the part, near to bounding-box diagonal / 20.</source>
@@ -718,6 +754,18 @@
     <message>
       <source>How many ways are tried where the first gives no good mesh: bounds the work, not the clock.</source>
       <translation>Wie viele Wege versucht werden, wo der erste kein gutes Netz gibt: begrenzt die Arbeit, nicht die Uhr.</translation>
+    </message>
+    <message>
+      <source>quick</source>
+      <translation>schnell</translation>
+    </message>
+    <message>
+      <source>normal</source>
+      <translation>normal</translation>
+    </message>
+    <message>
+      <source>thorough</source>
+      <translation>gründlich</translation>
     </message>
     <message>
       <source>Time limit</source>
@@ -810,6 +858,14 @@
     <message>
       <source>Where solids touch: one mesh with common nodes (conform), or a mesh of each with nodes of its own, for ties and contact (separate).</source>
       <translation>Wo Volumenkörper sich berühren: ein Netz mit gemeinsamen Knoten (conform), oder von jedem eines mit eigenen Knoten, für Verklebung und Kontakt (separate).</translation>
+    </message>
+    <message>
+      <source>conform</source>
+      <translation>gemeinsam</translation>
+    </message>
+    <message>
+      <source>separate</source>
+      <translation>getrennt</translation>
     </message>
     <message>
       <source>Feature angle</source>

@@ -29,6 +29,7 @@ def texts():
         for option in json.load(file)["options"]:
             found[option["name"].replace("_", " ").capitalize()] = None
             found[option["meaning"]] = None
+            found.update((choice, None) for choice in option["choices"] if choice.islower())  # words; the others are names and numbers
     return list(found)
 
 

@@ -1,14 +1,17 @@
 """The panel by keys, and on a small screen: what tells of a run is in sight, wherever its other parts are; run by gui.sh."""
 
+import glob
+import os
 from unittest import mock
 
 import FreeCAD
 import FreeCADGui
 import gui_panel
+import ObjectsFem
 from gui_support import picture, process_events, set_panel_width, wait_until
 from PySide import QtCore, QtGui
 
-from freecad.polycube import objects
+from freecad.polycube import objects, words
 
 
 def press(key, text=""):
@@ -91,6 +94,100 @@ class Keys(KeysTest):
         process_events(0.3)
         self.assertFalse(FreeCADGui.Control.activeDialog())
         self.assertEqual(self.document.Objects, [self.box])
+
+
+    def test_a_comma_that_is_no_decimal_one(self):
+        """What FreeCAD makes of it is shown, and not what was typed."""
+        panel = self.open_panel(self.box)
+        widget = self.focus(panel, "size")
+        widget.selectAll()
+        for sign in "5,5":
+            press(0, sign)
+        self.focus(panel, "order")
+        line = widget.findChild(QtGui.QLineEdit)
+        if QtCore.QLocale().groupSeparator() == ",":
+            self.assertEqual((panel.field("size").value, line.text()), (55.0, "55.00 mm"))
+        else:
+            self.assertEqual(panel.field("size").value, 5.5)
+        self.press("Cancel")
+
+
+class Themes(KeysTest):
+    """FreeCAD's own themes, whose paddings are wide, in the dock as FreeCAD opens it, and in German, whose words are long."""
+
+    def setUp(self):
+        super().setUp()
+        application = QtGui.QApplication.instance()
+        self.addCleanup(application.setStyleSheet, application.styleSheet())
+        gui_panel.speak_german(self)
+
+    def test_numbers_and_buttons_are_not_cut_off(self):
+        themes = sorted(glob.glob(os.path.join(FreeCAD.getResourceDir(), "Gui", "Stylesheets", "*.qss")))
+        themes = [path for path in themes if os.path.basename(path) in ("Dark-blue.qss", "ProDark.qss", "FreeCAD Dark.qss")]
+        self.assertTrue(themes)
+        for theme in themes:
+            with self.subTest(theme=os.path.basename(theme)), open(theme, encoding="utf-8") as file:
+                QtGui.QApplication.instance().setStyleSheet(file.read())
+                panel = self.open_panel(self.box)
+                panel.field("size").value = 8.0
+                panel.advanced.set_open(True)
+                process_events(0.4)
+                set_panel_width(280)
+                process_events(0.4)
+                self.check(panel)
+                picture("theme-" + os.path.basename(theme)[:-4])
+                self.press("Cancel")
+
+    def check(self, panel):
+        for name in ("Ok", "Cancel", "Apply"):
+            button = gui_panel.button_of(name)
+            option = QtGui.QStyleOptionButton()
+            button.initStyleOption(option)
+            option.rect = button.rect()
+            room = button.style().subElementRect(QtGui.QStyle.SE_PushButtonContents, option, button).width()
+            self.assertGreaterEqual(room, QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width(), button.text())
+        for spin in panel.form.findChildren(QtGui.QAbstractSpinBox):
+            line = spin.findChild(QtGui.QLineEdit)
+            if line is not None and spin.isVisible():
+                option = QtGui.QStyleOptionFrame()
+                line.initStyleOption(option)
+                room = line.style().subElementRect(QtGui.QStyle.SE_LineEditContents, option, line).width()
+                self.assertGreaterEqual(room, QtGui.QFontMetrics(line.font()).boundingRect(line.text()).width(), (spin.objectName(), line.text()))
+
+
+class German(KeysTest):
+    def setUp(self):
+        super().setUp()
+        gui_panel.speak_german(self)
+        self.addCleanup(QtCore.QLocale.setDefault, QtCore.QLocale())
+        QtCore.QLocale.setDefault(QtCore.QLocale(QtCore.QLocale.German))
+
+    def test_numbers_are_as_in_the_fields_beside_them(self):
+        self.assertEqual((words.count(53773), words.decimal(0.5, 2), words.short_count(1200000)), ("53.773", "0,50", "1,2M"))
+        panel = self.open_panel(self.box)
+        panel.field("size").value = 3.0
+        self.apply(panel)
+        self.assertIn("{} Zellen".format(words.count(panel.obj.Hexahedra)), panel.form.status.text())
+        self.assertIn("1.820 Zellen", panel.form.status.text())
+        self.assertIn("1,00", panel.form.status.text())
+        self.assertEqual(panel.result.worst.item(0, 1).text()[:2], "1,")
+        panel.result._zoom(0)
+        self.assertIn("1 von 1.820", panel.result.told.text())
+        self.assertEqual([panel.field("effort").widget.itemText(index) for index in range(3)], ["schnell", "normal", "gründlich"])
+        panel.field("effort").widget.setCurrentIndex(2)
+        self.assertEqual(panel.field("effort").value, "thorough")
+        self.press("Ok")
+        self.assertEqual(list(self.document.UndoNames), ["Parameter des Netzes", "Hexaedernetz aus Form"])
+
+    def test_questions_and_refusals(self):
+        panel = self.meshed()
+        self.press("Ok")
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analyse")
+        analysis.addObject(panel.obj)
+        told = []
+        with mock.patch.object(QtGui.QMessageBox, "warning", lambda *words: told.append(words[2]) or QtGui.QMessageBox.No):
+            self.assertFalse(panel.obj.ViewObject.Proxy.onDelete(panel.obj.ViewObject, ()))
+        self.assertEqual(told, ["PolycubeMesh ist das Netz von Analyse. Löschen?"])
 
 
 class InSight(KeysTest):

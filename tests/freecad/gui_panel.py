@@ -71,19 +71,7 @@ class Narrow(PanelTest):
         self.check("English")
 
     def test_nothing_is_cut_off_in_german(self):
-        general = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/General")
-        before = general.GetString("Language", "")
-
-        def english_again():
-            # FreeCAD keeps the language for the next start; of a user without a choice it makes none.
-            FreeCADGui.setLocale("English")
-            if before:
-                general.SetString("Language", before)
-            else:
-                general.RemString("Language")
-
-        self.addCleanup(english_again)
-        FreeCADGui.setLocale("German")
+        speak_german(self)
         self.check("German")
         self.assertEqual(fields.title({"name": "size"}), "Elementgröße")
 
@@ -121,6 +109,23 @@ class Narrow(PanelTest):
 
     def area(self, panel):
         return next(widget for widget in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea) if widget.isAncestorOf(panel.form))
+
+
+def speak_german(test):
+    """Until the end of the test."""
+    general = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/General")
+    before = general.GetString("Language", "")
+
+    def english_again():
+        # FreeCAD keeps the language for the next start; of a user without a choice it makes none.
+        FreeCADGui.setLocale("English")
+        if before:
+            general.SetString("Language", before)
+        else:
+            general.RemString("Language")
+
+    test.addCleanup(english_again)
+    FreeCADGui.setLocale("German")
 
 
 def button_of(name):

@@ -8,6 +8,7 @@ import FreeCAD
 
 from . import shapes
 from .errors import InvalidInput
+from .words import tr
 
 
 #: What the calls that change documents return at once while the window records them: see echo().
@@ -144,7 +145,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     shape = shapes.shape_of(part, beside=analysis)
     if only_object:
         shapes.check_solid(shape)
-        with transaction(document, "Hexahedral mesh from shape"):
+        with transaction(document, tr("Hexahedral mesh from shape")):
             obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
             if analysis:
                 analysis.addObject(obj)
@@ -155,7 +156,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
     for one in parts:
         _check_object(one)
-    with transaction(document, "Hexahedral mesh from shape"):
+    with transaction(document, tr("Hexahedral mesh from shape")):
         obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
         if analysis:
             analysis.addObject(obj)
@@ -201,7 +202,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
     result = _run("mesh", shape, wanted, progress, log, cancel)
     _check_mesh(obj)
-    with transaction(obj.Document, "Hexahedral mesh"):
+    with transaction(obj.Document, tr("Hexahedral mesh")):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
     return obj
 
@@ -217,7 +218,7 @@ def set_options(obj, **more):
 
     _check_mesh(obj)
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
-    with transaction(obj.Document, "Mesh parameters"):
+    with transaction(obj.Document, tr("Mesh parameters")):
         option_table.write(obj, given)
     return obj
 
@@ -238,7 +239,7 @@ def refine(obj, kind, places, value=None):
     from . import refinements
 
     _check_mesh(obj)
-    with transaction(obj.Document, "Refinement"):
+    with transaction(obj.Document, tr("Refinement")):
         return refinements.make(obj, kind, [place if isinstance(place, str) else "Face{}".format(place) for place in places], value)
 
 
@@ -254,7 +255,7 @@ def set_refinement(obj, value=None, suppressed=None):
 
     if not refinements.is_refinement(obj):
         raise InvalidInput("{} is no refinement".format(getattr(obj, "Label", obj)))
-    with transaction(obj.Document, "Refinement"):
+    with transaction(obj.Document, tr("Refinement")):
         if value is not None:
             refinements.set_value(obj, value)
         if suppressed is not None:
@@ -273,7 +274,7 @@ def set_analysis(obj, analysis):
 
     _check_mesh(obj)
     _check_analysis(analysis, obj)
-    with transaction(obj.Document, "Mesh of the analysis"):
+    with transaction(obj.Document, tr("Mesh of the analysis")):
         analyses.move(obj, analysis)
         for other in analyses.other_meshes(analysis, obj) if analysis else []:
             analysis.removeObject(other)

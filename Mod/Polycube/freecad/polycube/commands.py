@@ -33,10 +33,10 @@ class MeshFromShape:
             shapes.check_solid(shapes.shape_of(chosen))
             part = chosen[0]
             if len(chosen) > 1:
-                with api.transaction(part.Document, "Compound of the parts to mesh"):
+                with api.transaction(part.Document, tr("Compound of the parts to mesh")):
                     part = api.compound_of(chosen)
         except InvalidInput as error:
-            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Hexahedral mesh", "{}: {}".format(chosen[0].Label, error))
+            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), tr("Hexahedral mesh"), "{}: {}".format(chosen[0].Label, error))
             return
         macro.begin()
         if len(chosen) > 1:
@@ -80,8 +80,8 @@ class Solve:
         analysis = analyses.active(FreeCAD.ActiveDocument)
         macro.begin()
         _give_mesh(analysis)
-        title = "Solve with CalculiX"
-        progress = QtGui.QProgressDialog(title, "Cancel", 0, 0, FreeCADGui.getMainWindow())
+        title = tr("Solve with CalculiX")
+        progress = QtGui.QProgressDialog(title, tr("Cancel"), 0, 0, FreeCADGui.getMainWindow())
         progress.setWindowModality(QtCore.Qt.WindowModal)
         progress.setMinimumDuration(0)
         progress.setValue(0)

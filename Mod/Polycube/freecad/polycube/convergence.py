@@ -10,6 +10,7 @@ import FreeCAD
 
 from . import api, objects, option_table, refinements, shapes, solver
 from .errors import InvalidInput
+from .words import tr
 
 #: from one size to the next: twice as many cells and a half, and three sizes span nearly a factor of two
 _STEP = 2**0.5
@@ -103,7 +104,7 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
     series, rows = list(_options(mesh, sizes)), []
     local = refinements.local_sizes(mesh)
     folder = solver.prepared(analysis, solver_object, folder).working_dir  # one for all sizes
-    with api.transaction(analysis.Document, "Convergence series"):
+    with api.transaction(analysis.Document, tr("Convergence series")):
         for options, finer in series:
             option_table.write(mesh, options)
             for refinement, size in local.items():

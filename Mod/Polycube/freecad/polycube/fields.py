@@ -19,7 +19,7 @@ _TITLES = {
     "sizes": noop("Local sizes"),
     "refine": noop("Local refinement"),
 }
-_ORDERS = ["1st", "2nd"]
+_ORDERS = [noop("1st"), noop("2nd")]
 _UNITS = {"mm": "mm", "degrees": "deg"}
 #: Only one of them can say how fine the mesh is; the engine refuses more.
 FINENESS = ("size", "hexes", "coarsest")
@@ -79,6 +79,12 @@ class _Quantity(Field):
         self.widget.setProperty("minimum", option["min"])
         self.widget.setProperty("maximum", option["max"])
         QtCore.QObject.connect(self.widget, QtCore.SIGNAL("valueChanged(double)"), lambda _: changed())
+        QtCore.QObject.connect(self.widget, QtCore.SIGNAL("editingFinished()"), self._show_what_is_meant)
+
+    def _show_what_is_meant(self):
+        """FreeCAD reads 5,5 as 55 where the comma groups digits, and goes on showing 5,5."""
+        if QtCore.QLocale().groupSeparator() in self.widget.findChild(QtGui.QLineEdit).text():
+            self.value = self.value
 
     @property
     def value(self):
@@ -127,7 +133,7 @@ class _Choice(Field):
     def __init__(self, option, changed):
         super().__init__(option, QtGui.QComboBox())
         self._values = [int(choice) if option["type"] == "int" else choice for choice in option["choices"]]
-        self.widget.addItems(_ORDERS if option["name"] == "order" else option["choices"])
+        self.widget.addItems([tr(choice) for choice in (_ORDERS if option["name"] == "order" else option["choices"])])
         self.widget.currentIndexChanged.connect(lambda _: changed())
 
     @property

@@ -5,7 +5,7 @@ from PySide import QtCore, QtGui
 from . import quality_view
 from .measures import BARS, MEASURES
 from .words import count as told
-from .words import short_count, tr
+from .words import decimal, short_count, tr
 
 #: Pixels of the smallest letters that can be read.
 _SMALLEST = 8
@@ -38,7 +38,7 @@ class Histogram(QtGui.QWidget):
     def label(self, edge):
         """The measure's value at an end of bars, 0 to BARS."""
         value = self.measure.value(edge / BARS)
-        return "{:.1f}".format(value) if value < 1e6 else "\u221e"
+        return decimal(value, 1) if value < 1e6 else "\u221e"
 
     def bar_at(self, x):
         return min(max(int(BARS * x / max(self.width(), 1)), 0), BARS - 1)

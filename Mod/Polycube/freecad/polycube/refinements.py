@@ -7,7 +7,7 @@ import FreeCAD
 from . import compat, fem_mesh, option_table, shapes
 from .errors import InvalidInput, did_you_mean
 from .stateless import Stateless
-from .words import noop
+from .words import noop, tr
 
 _AXES = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"]
 
@@ -53,7 +53,7 @@ def make(mesh, kind, places, value=None):
     check(solid, KINDS[kind], list(places), value)
     obj = mesh.Document.addObject("Fem::FeaturePython", "Refinement")
     Refinement(obj, kind)
-    obj.Label = KINDS[kind].title
+    obj.Label = tr(KINDS[kind].title)
     obj.References = [(solid, list(places))]
     if value is not None:
         set_value(obj, value)

@@ -11,7 +11,7 @@ from .folding import Section
 from .histogram import Histogram
 from .measures import BARS, MEASURES, Cells
 from .result import of_runs
-from .words import count, noop, tr
+from .words import count, decimal, noop, tr
 
 #: Cells in the list of the worst.
 _WORST = 20
@@ -126,10 +126,10 @@ class ResultSection(Section):
         quality, captured = report["quality"], report["cad"]
         lines = [tr("The mesh is out of date: press Apply.")] if obj.MeshState == objects.OUTDATED else []
         lines.append(tr("{} cells, {} nodes").format(count(obj.Hexahedra), count(obj.NodeCount)))
-        lines.append(tr("Scaled Jacobian: min {:.3f}, mean {:.3f}").format(quality["min_scaled_jacobian"], quality["mean_scaled_jacobian"]))
+        lines.append(tr("Scaled Jacobian: min {}, mean {}").format(*(decimal(quality[of + "_scaled_jacobian"], 3) for of in ("min", "mean"))))
         others = [measure for measure in MEASURES[1:] if measure.name in quality]  # documents of older versions have none
         if others:
-            lines.append(tr("Worst cells: ") + ", ".join("{} {:.2f}".format(tr(_IN_A_LINE[one.name]), quality[one.name]["max"]) for one in others))
+            lines.append(tr("Worst cells: ") + ", ".join("{} {}".format(tr(_IN_A_LINE[one.name]), decimal(quality[one.name]["max"], 2)) for one in others))
         captured_words = ("{captured}/{total} ".format(**captured[what]) + tr(what) for what in (noop("faces"), noop("edges"), noop("vertices")))
         lines.append(tr("Of the CAD model: ") + ", ".join(captured_words))
         self.summary.setText("\n".join(lines))
@@ -228,7 +228,7 @@ class ResultSection(Section):
                 self.worst.clearSelection()
                 self.worst.setRowCount(len(rows))
                 for row, (index, value, faces) in enumerate(rows):
-                    for column, text in enumerate((str(index + 1), "{:.3f}".format(value), ", ".join(faces) or tr("inside"))):
+                    for column, text in enumerate((str(index + 1), decimal(value, 3), ", ".join(faces) or tr("inside"))):
                         self.worst.setItem(row, column, QtGui.QTableWidgetItem(text))
                 self.worst.resizeColumnsToContents()
         finally:

@@ -6,7 +6,7 @@ import re
 from PySide import QtCore, QtGui
 
 from .folding import Section
-from .words import noop, tr
+from .words import decimal, noop, tr
 
 #: The mesher's stages, in the order of a mesh.
 _STAGES = {
@@ -90,7 +90,7 @@ class RunSection(QtGui.QWidget):
 
     def show_time(self, seconds, ended=False):
         """Seconds since the beginning, and what is typical while it runs."""
-        text = "{:.1f} s".format(seconds)
+        text = decimal(seconds, 1) + " s"
         if self._typical and not ended:
             text = tr("{} of about {:.0f} s").format(text, max(self._typical, 1))
         self.time.setText(text)
@@ -136,7 +136,7 @@ class RunSection(QtGui.QWidget):
         self._layout_number = int(number)
         if lost is not None:
             captured = tr("all CAD edges") if lost == "0" else tr("all but {} CAD edges").format(lost)
-            self._found = tr("Best so far: valid, {}, worst cell {:.2f}").format(captured, float(quality))
+            self._found = tr("Best so far: valid, {}, worst cell {}").format(captured, decimal(float(quality), 2))
             self.best.setVisible(True)
             self.best.setEnabled(True)
 

@@ -13,6 +13,7 @@ import FreeCAD
 from . import api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh, loss, not_captured
+from .words import tr
 
 #: node set of all that holds the part
 SUPPORTS = "POLYCUBE_SUPPORTS"
@@ -71,7 +72,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
         if log:
             log(line)
     before = set(analysis.Group)
-    with api.transaction(analysis.Document, "Solve with CalculiX"):
+    with api.transaction(analysis.Document, tr("Solve with CalculiX")):
         if not FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/General").GetBool("KeepResultsOnReRun", False):
             before -= {member for member in before if member.isDerivedFrom("Fem::FemResultObject")}
             tools.purge_results()

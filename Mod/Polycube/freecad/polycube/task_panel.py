@@ -21,7 +21,7 @@ from .result_section import ResultSection
 from .run import LiveSession, Run
 from .run_section import RunSection, stage_words
 from .size_hint import SizeHint
-from .words import count, noop, tr
+from .words import count, decimal, noop, tr
 
 _TITLE = noop("Hexahedral mesh")
 #: What may help where a stage fails, by the stage; what a button does is added below the line.
@@ -36,6 +36,12 @@ _WAYS = {"label": ("axes",), "deform": ("axes", "finer"), "quantize": (), "fit":
 _WAYS_ELSE = ("finer", "effort", "axes")
 #: Of a size that was too coarse, and degrees of edges that are given up; the guide advises 10 to 20.
 _FINER, _SMOOTH = 0.7, 15.0
+#: FreeCAD's themes have paddings with which numbers and buttons are cut off in a dock of 280 pixels.
+_CLOSER = """
+QAbstractSpinBox, QComboBox { padding-left: 1px; padding-right: 1px; margin-left: 0px; margin-right: 0px; }
+QAbstractSpinBox > QLineEdit { padding: 0px; margin: 0px; border: 0px; }
+"""
+_CLOSER_BUTTON = "padding-left: 2px; padding-right: 2px; margin-left: 1px; margin-right: 1px; min-width: 0px;"
 #: Lines that the panel has room for of what the mesh will not have.
 _LISTED = 6
 
@@ -78,6 +84,8 @@ class MeshPanel:
 
     def _make_form(self):
         form = QtGui.QWidget()
+        if QtGui.QApplication.instance().styleSheet():
+            form.setStyleSheet(_CLOSER)
         form.setWindowTitle(tr(_TITLE))
         form.setWindowIcon(QtGui.QIcon(resources.icon("Polycube_MeshFromShape")))
         options = option_table.document_options()
@@ -407,7 +415,7 @@ class MeshPanel:
         self.form.progress.setValue(100)
         for line in warnings:
             self._write(tr("Warning: ") + line, error=True)
-        text = tr("Meshed: {} cells, {} nodes, worst cell {:.2f}.").format(count(len(result.hexes)), count(len(result.nodes)), self.obj.MinScaledJacobian)
+        text = tr("Meshed: {} cells, {} nodes, worst cell {}.").format(count(len(result.hexes)), count(len(result.nodes)), decimal(self.obj.MinScaledJacobian, 2))
         if warnings:
             text += " " + (warnings[0] if len(warnings) == 1 else tr("{} warnings, see the log: {} ...").format(len(warnings), warnings[0]))
         self.form.run.tell(text)
@@ -717,6 +725,8 @@ def _prepare_buttons():
             continue
         for button in box.buttons():
             button.setIcon(QtGui.QIcon())
+            if QtGui.QApplication.instance().styleSheet():
+                button.setStyleSheet(_CLOSER_BUTTON)
             button.setMinimumWidth(QtGui.QFontMetrics(button.font()).boundingRect(button.text()).width() + 16)
             button.setSizePolicy(QtGui.QSizePolicy.Preferred, QtGui.QSizePolicy.Fixed)
             button.setDefault(button is box.button(QtGui.QDialogButtonBox.Apply))

@@ -5,6 +5,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from . import macro, objects, refinements, resources
+from .words import tr
 
 _ICONS = {objects.EMPTY: "Polycube_MeshEmpty", objects.CURRENT: "Polycube_MeshFromShape", objects.OUTDATED: "Polycube_MeshOutOfDate"}
 
@@ -53,7 +54,7 @@ class PolycubeMeshView(objects.Stateless):
 
         document = FreeCADGui.getDocument(view.Object.Document)
         if document.getInEdit() or FreeCADGui.Control.activeDialog():
-            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), "Task panel", "Close the open task panel first.")
+            QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), tr("Task panel"), tr("Close the open task panel first."))
             return True
         analysis = objects.analysis_of(view.Object)
         if analysis:
@@ -82,14 +83,14 @@ class PolycubeMeshView(objects.Stateless):
 
         window = FreeCADGui.getMainWindow()
         if MeshPanel.is_meshing(view.Object):
-            QtGui.QMessageBox.critical(window, "Hexahedral mesh", "The mesher is running for this object. Cancel it first.")
+            QtGui.QMessageBox.critical(window, tr("Hexahedral mesh"), tr("The mesher is running for this object. Cancel it first."))
             return False
         analysis = objects.analysis_of(view.Object)
         if not analysis or not view.Object.FemMesh.VolumeCount:
             return True
-        question = "{} is the mesh of {}. Delete it?".format(view.Object.Label, analysis.Label)
+        question = tr("{} is the mesh of {}. Delete it?").format(view.Object.Label, analysis.Label)
         buttons = QtGui.QMessageBox.Yes | QtGui.QMessageBox.No
-        return QtGui.QMessageBox.warning(window, "Hexahedral mesh", question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
+        return QtGui.QMessageBox.warning(window, tr("Hexahedral mesh"), question, buttons, QtGui.QMessageBox.No) == QtGui.QMessageBox.Yes
 
 
 def _after_double_click(panel):

@@ -41,9 +41,28 @@ def _catalogue(language):
     return {source: told.text for source, told in pairs if told is not None and told.text and told.get("type") is None}
 
 
+def _locale():
+    """How the window's spin boxes write numbers, a QLocale; None where there is no window, or where it writes them as programs do."""
+    import FreeCAD
+
+    if not FreeCAD.GuiUp:
+        return None
+    from PySide import QtCore
+
+    locale = QtCore.QLocale()
+    return None if locale.language() == QtCore.QLocale.C else locale
+
+
 def count(number):
-    """Digits in groups of three: 53,773."""
-    return "{:,}".format(number)
+    """Digits in groups of three: 53,773, in German 53.773."""
+    locale = _locale()
+    return locale.toString(int(number)) if locale else "{:,}".format(number)
+
+
+def decimal(number, digits):
+    """With so many digits after the point, in German after the comma."""
+    locale = _locale()
+    return locale.toString(float(number), "f", digits) if locale else "{:.{}f}".format(number, digits)
 
 
 def short_count(number):
@@ -52,4 +71,4 @@ def short_count(number):
         return str(number)
     if number < 999500:
         return "{:.0f}k".format(number / 1000)
-    return "{:.1f}M".format(number / 1e6) if number < 99.95e6 else "{:.0f}M".format(number / 1e6)
+    return decimal(number / 1e6, 1) + "M" if number < 99.95e6 else "{:.0f}M".format(number / 1e6)

@@ -96,10 +96,6 @@
       <translation>Erzeugt ein FEM-Netz aus Hexaedern vom gewählten Volumenkörper oder von mehreren</translation>
     </message>
     <message>
-      <source>Compound of the parts to mesh</source>
-      <translation>Verbund der Bauteile zum Vernetzen</translation>
-    </message>
-    <message>
       <source>Solve with CalculiX</source>
       <translation>Mit CalculiX lösen</translation>
     </message>
@@ -198,6 +194,14 @@
     <message>
       <source>Warpage</source>
       <translation>Verwindung</translation>
+    </message>
+    <message>
+      <source>Compound of the parts to mesh</source>
+      <translation>Verbund der Bauteile zum Vernetzen</translation>
+    </message>
+    <message>
+      <source>Delete</source>
+      <translation>Löschen</translation>
     </message>
     <message>
       <source>Other sizes and numbers of cells at places of the part</source>

@@ -236,3 +236,78 @@ class OfTheRest(FollowTest):
         self.assertIsNone(overlay.view_of(hidden))
         self.addCleanup(FreeCAD.closeDocument, hidden.Name)
         overlay.Overlay(hidden, FreeCAD.Placement()).remove()
+
+
+class BesideEachOther(FollowTest):
+    """Several parts that are meshed as one, and a mesh that is asked for while a preview is made."""
+
+    def setUp(self):
+        super().setUp()
+        self.pin = self.document.addObject("Part::Box", "Pin")
+        self.pin.Placement.Base = FreeCAD.Vector(60, 0, 0)
+        self.document.recompute()
+        self.document.clearUndos()
+
+    def open_for_both(self):
+        FreeCADGui.Selection.clearSelection()
+        for part in (self.box, self.pin):
+            FreeCADGui.Selection.addSelection(part)
+        return self.caught(lambda: FreeCADGui.runCommand("Polycube_MeshFromShape"))
+
+    def test_cancel_leaves_the_document_alone(self):
+        for button in ("Cancel", "Ok"):
+            with self.subTest(button=button):
+                self.lines.clear()
+                panel = self.open_for_both()
+                self.assertEqual(panel.part.Links, [self.box, self.pin])
+                self.press(button)
+                self.settle()
+                self.assertEqual([obj.Name for obj in self.document.Objects], ["Block", "Pin"])
+                self.assertEqual(list(self.document.UndoNames), [])
+                self.assertTrue(self.box.ViewObject.isVisible() and self.pin.ViewObject.isVisible())
+                self.assertEqual(self.lines, ["from freecad import polycube"])
+
+    def test_what_refers_to_the_compound_keeps_it(self):
+        panel = self.open_for_both()
+        other = self.document.addObject("Part::Compound", "Other")
+        other.Links = [panel.part]
+        self.press("Cancel")
+        self.settle()
+        self.assertEqual(other.Links[0].Links, [self.box, self.pin])
+
+    def test_a_second_mesh_takes_the_same_compound(self):
+        panel = self.open_for_both()
+        panel.field("size").value = 10.0
+        mesh = self.apply(panel)
+        self.press("Ok")
+        self.settle()
+        self.assertEqual(list(self.document.UndoNames), ["Hexahedral mesh from shape", "Compound of the parts to mesh"])
+        self.assertIsNone(FreeCAD.getActiveTransaction())
+        self.assertEqual(sum("compound_of" in line for line in self.lines), 1)
+        again = self.open_for_both()
+        self.assertEqual((again.part, again.obj), (panel.part, mesh))
+        self.press("Cancel")
+        self.settle()
+        self.assertEqual(len(self.document.findObjects("Part::Compound")), 1)
+
+    def test_a_double_click_takes_back_no_step_that_another_has_left_open(self):
+        panel = self.meshed(10.0)
+        self.press("Ok")
+        FreeCAD.setActiveTransaction("Another's")
+        self.pin.Length = 25
+        self.double_click_in_tree(panel.obj)
+        self.settle()
+        self.assertEqual(self.pin.Length.Value, 25)
+        self.assertTrue(panel.mesh_exists())
+        self.press("Cancel")
+
+    def test_apply_while_a_preview_is_made(self):
+        panel = self.open_panel(self.box)
+        panel.field("size").value = 10.0
+        panel.axes.preview.setChecked(True)
+        self.assertEqual(panel.process.what, "labels")
+        self.press("Apply")
+        self.assertTrue(wait_until(lambda: panel.mesh_exists() and not panel.process and not panel._taking, 60))
+        self.assertIn("Meshed", panel.form.status.text())
+        self.assertFalse(panel.axes.preview.isChecked())
+        self.press("Ok")

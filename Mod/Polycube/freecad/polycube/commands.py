@@ -7,6 +7,7 @@ from PySide import QtCore, QtGui
 
 from . import analyses, api, macro, objects, resources, shapes
 from .errors import Cancelled, InvalidInput, PolycubeError
+from .put_together import PutTogether
 from .words import tr
 
 
@@ -29,25 +30,26 @@ class MeshFromShape:
         from .task_panel import MeshPanel
 
         chosen = self._selected()
+        together = None
         try:
             shapes.check_solid(shapes.shape_of(chosen))
             part = chosen[0]
             if len(chosen) > 1:
-                with api.transaction(part.Document, tr("Compound of the parts to mesh")):
-                    part = api.compound_of(chosen)
+                part = _compound_with(chosen)
+                if not part:
+                    together = PutTogether(chosen)
+                    part = together.compound
         except InvalidInput as error:
             QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), tr("Hexahedral mesh"), "{}: {}".format(chosen[0].Label, error))
             return
         macro.begin()
-        if len(chosen) > 1:
-            macro.put_together(part, chosen)
         analysis = analyses.active(part.Document)
         # A second mesh of the part would stand in the first one.
         meshes = [mesh for mesh in objects.meshes_of(part) if objects.analysis_of(mesh) in (analysis, None)]
         if meshes:
             meshes[-1].ViewObject.Proxy.doubleClicked(meshes[-1].ViewObject)
         else:
-            FreeCADGui.Control.showDialog(MeshPanel(part, analysis=analysis))
+            FreeCADGui.Control.showDialog(MeshPanel(part, analysis=analysis, together=together))
 
     @staticmethod
     def _selected():
@@ -57,6 +59,15 @@ class MeshFromShape:
         chosen = FreeCADGui.Selection.getSelection()
         fit = all(shapes.has_shape(obj) and not obj.isDerivedFrom("Fem::FemMeshObject") for obj in chosen)
         return chosen if chosen and fit else None
+
+
+def _compound_with(parts):
+    """A compound of just these parts that there is, as one that was meshed before, or None."""
+    for compound in parts[0].Document.findObjects("Part::Compound"):
+        links = compound.Links
+        if len(links) == len(parts) and all(part in links for part in parts):
+            return compound
+    return None
 
 
 class Solve:

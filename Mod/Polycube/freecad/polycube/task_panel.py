@@ -57,14 +57,15 @@ class MeshPanel:
     _form = None
     shown_refinement = None  # name of the refinement that the next panel is to show
 
-    def __init__(self, part, obj=None, analysis=None):
+    def __init__(self, part, obj=None, analysis=None, together=None):
         self.part, self.obj = part, obj
+        self._together = together  # the PutTogether of a part that was made for this panel
         self.document_name = part.Document.Name if part else obj.Document.Name
         self.process = None  # the Run or Request, while there is one
         self._session = None  # the LiveSession, once labels or a count were asked for
         self.started = 0.0
         self._shown_before = None  # what show_mesh_alone() has changed: whether the mesh was shown, and the meshes of results that were
-        self._taking = False
+        self._taking = self._apply_next = False
         self._filling = True
         self._seen = {}  # what of the document the panel has taken note of, see follow()
         self._meshed_options, self._asked, self._meshed_shape, self._before = {}, {}, [], {}
@@ -207,6 +208,10 @@ class MeshPanel:
 
     def apply(self):
         """Starts the mesher with the panel's parameters."""
+        if self.process and self.process.what != "mesh":
+            self._apply_next = True  # a preview is no reason to wait
+            self.cancel()
+            return
         if self.process or self._taking:
             self.tell(tr("The mesher is running already."), error=True)
             return
@@ -321,12 +326,16 @@ class MeshPanel:
     def _finished(self, made, error):
         what, self.process = self.process.what, None
         MeshPanel._running = None
+        apply_next, self._apply_next = self._apply_next, False
         if self._form is None:  # closed meanwhile
             return
         taken = time.monotonic() - self.started
         self.form.run.show_time(taken, ended=True)
         self.form.run.end()
         self.form.parameters.setEnabled(True)
+        if apply_next and what != "mesh":
+            self.apply()
+            return
         try:
             if error:
                 raise error
@@ -439,6 +448,7 @@ class MeshPanel:
             warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh, self._asked)
         self.note()
         if is_new:
+            self._record_part()
             macro.created(self.obj, self._meshed_options)
         else:
             macro.updated(self.obj, self._before, self._meshed_options)
@@ -480,6 +490,8 @@ class MeshPanel:
             gui_document.resetEdit()
         else:
             FreeCADGui.Control.closeDialog()
+        if self._together:
+            QtCore.QTimer.singleShot(0, self._together.take_back)
         return True
 
     # --- the document changes meanwhile --------------------------------------------------------------------------------------
@@ -568,7 +580,12 @@ class MeshPanel:
         analysis = self.analysis_box.chosen()
         if analysis and not analyses.other_meshes(analysis):
             analyses.move(self.obj, analysis)
+        self._record_part()
         macro.made_empty(self.obj)
+
+    def _record_part(self):
+        if self._together:
+            self._together.record()
 
     def show_part(self):
         for obj in (self.part, shapes.solid_object(self.part)):

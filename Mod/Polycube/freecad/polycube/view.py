@@ -96,5 +96,6 @@ class PolycubeMeshView(objects.Stateless):
 def _after_double_click(panel):
     """Shows the mesh by itself, in no undo step. FreeCAD leaves a transaction "Edit" open as long as something is edited, which all that the panel does would be part of."""
     if FreeCAD.getActiveTransaction():
-        FreeCAD.closeActiveTransaction(True)
+        # One that has changed something is another's, which was open before: taken back it would take that with it.
+        FreeCAD.closeActiveTransaction(not any(document.HasPendingTransaction for document in FreeCAD.listDocuments().values()))
     panel.show_mesh_alone()

@@ -95,7 +95,6 @@ class Keys(KeysTest):
         self.assertFalse(FreeCADGui.Control.activeDialog())
         self.assertEqual(self.document.Objects, [self.box])
 
-
     def test_a_comma_that_is_no_decimal_one(self):
         """What FreeCAD makes of it is shown, and not what was typed."""
         panel = self.open_panel(self.box)

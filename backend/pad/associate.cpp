@@ -280,8 +280,10 @@ class Associator {
       for (int n : nodes_) {
         const double d = (b_.points[n] - model_.vertex(v)).norm() / options_.size;
         if (d > kPadTuning.reach) continue;
-        // A vertex on a chart boundary or corner belongs on one of the mesh.
-        const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
+        // A vertex on a chart boundary or corner belongs on one of the mesh. The node of its image has its very place, and may lack a chart that is squeezed
+        // to a line there.
+        const bool image = d < kPadTuning.same_place;
+        const auto missing = image ? 0 : std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
         const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
         candidates.push_back(
             {d + 2.0 * static_cast<double>(missing) + kPadTuning.surplus_price * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});

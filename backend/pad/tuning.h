@@ -12,6 +12,9 @@ struct PadTuning {
   double hopeless = 2500;
   /// Cell sizes: paths further from their CAD edge are no capture of it. Guess.
   double reach = 3;
+  /// Cell sizes: a node as near as this to a CAD vertex is its image. Theory: where both are at one point of the grid their places are the same but for
+  /// rounding.
+  double same_place = 1e-3;
   /// Cell sizes that a quad too many or too few between two CAD edges at a vertex costs. Guess.
   double spoke_price = 0.5;
   /// Cell sizes of deviation: the blame for a path all of which runs in other charts than its CAD edge. Guess.
@@ -70,9 +73,9 @@ struct PadTuning {
   /// Price of a hex. Guess.
   double hex_price = 0.002;
 
-  POLYCUBE_ENTRIES(hopeless, reach, spoke_price, astray_blame, surplus_price, rounds, patience, widest_end, concave, bad_edge, small_price, quad_price,
-                   band_repairs, widest, sunk, flat_inside, cusp, one_cell, room_width, bad_sector, flat, straight_angle, least_gain, straight, sheet_reach,
-                   max_sheets, sheet_repairs, inner_weight, hex_price)
+  POLYCUBE_ENTRIES(hopeless, reach, same_place, spoke_price, astray_blame, surplus_price, rounds, patience, widest_end, concave, bad_edge, small_price,
+                   quad_price, band_repairs, widest, sunk, flat_inside, cusp, one_cell, room_width, bad_sector, flat, straight_angle, least_gain, straight,
+                   sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price)
 };
 
 inline constexpr const PadTuning& kPadTuning = tuning_in_force<PadTuning>;

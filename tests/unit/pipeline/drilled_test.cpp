@@ -99,5 +99,23 @@ TEST(CrossingTunnels, AFloorIsDividedBesideTheMouthThatBreaksIntoIt) {
   EXPECT_GT(result.report.quality.min_scaled_jacobian, 0.2);
 }
 
+// A slot passes a hexagonal hole and cuts a sixtieth of a cell deeper than one of its sides, which it leaves at 3.5 degrees: its floor has a needle there,
+// which the map squeezes to a line. The needle's tip belongs at the node of its image, in the middle of the wall, and not at one beyond on the floor's border.
+// Found in a machined block; a tunnel and a chamfer make the labels those of that block.
+TEST(CrossingTunnels, ANeedleThatTheMapSqueezesToALineHasItsTip) {
+  const shapes::Prism hole{2, {{3.939, 8.998}, {3.105, 8.446}, {3.166, 7.448}, {4.061, 7.002}, {4.895, 7.554}, {4.834, 8.552}}, 0, 10};
+  const shapes::Prism slot{1, {{4.288, 2.85}, {7.562, 2.85}, {7.562, 4.85}, {4.288, 4.85}}, 0, 10};
+  const shapes::Prism tunnel{0, {{2.933, 7.651}, {4.222, 6.62}, {4.679, 8.239}}, 0, 10};
+  const shapes::Prism chamfer{0, {{0, 8.728}, {1.272, 10}, {0, 10}}, 0, 10};
+  const CadModel model = CadModel::from_brep(shapes::machined_box(10, {hole, slot, tunnel, chamfer}));
+  MeshOptions options;
+  options.size = 1;
+  options.effort = "quick";
+  const MeshResult result = mesh(model, options, Monitor());
+  EXPECT_TRUE(result.association.lost_edges.empty());
+  EXPECT_EQ(result.report.capture.faces_captured, result.report.capture.faces);
+  EXPECT_GT(result.report.quality.min_scaled_jacobian, 0.05);  // sin 3.5 degrees is .061
+}
+
 }  // namespace
 }  // namespace polycube

@@ -133,10 +133,11 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     parts = list(part) if isinstance(part, (list, tuple)) else [part]
     for one in parts or [None]:
         _check_object(one)
-    part = parts if len(parts) > 1 else parts[0]
     document = parts[0].Document
     if any(one.Document != document for one in parts):
         raise InvalidInput("the parts are in different documents")
+    parts = shapes.distinct(parts)
+    part = parts if len(parts) > 1 else parts[0]
     if not isinstance(name, str) or not name:
         raise InvalidInput("name: not a name but {!r}".format(name))
     _check_analysis(analysis, parts[0])
@@ -145,7 +146,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     if only_object:
         shapes.check_solid(shape)
         with transaction(document, "Hexahedral mesh from shape"):
-            obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
+            obj = objects.make(document, part if len(parts) == 1 else compound_of(parts, analysis), name)
             if analysis:
                 analysis.addObject(obj)
             option_table.write(obj, given)
@@ -156,7 +157,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     for one in parts:
         _check_object(one)
     with transaction(document, "Hexahedral mesh from shape"):
-        obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
+        obj = objects.make(document, part if len(parts) == 1 else compound_of(parts, analysis), name)
         if analysis:
             analysis.addObject(obj)
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
@@ -164,19 +165,40 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 
 
 @_recorded
-def compound_of(parts):
-    """A new Part::Compound of document objects, which stands where they stand. Raises InvalidInput where no compound can.
+def compound_of(parts, analysis=None):
+    """A new Part::Compound of document objects, which stands where they stand and follows them. Raises InvalidInput where no compound can.
+
+    Of objects in one App::Part it is in there too; of others in containers it has links, which follow these. `analysis`: that the mesh of it is to be in.
 
     >>> len(polycube.compound_of([part, other]).Shape.Solids)
     2
     """
+    parts = shapes.distinct(parts)
     document = parts[0].Document
+    around = [shapes.container_of(part) for part in parts]
+    shared = around[0] if around[0] and around[0].isDerivedFrom("App::Part") and all(one == around[0] for one in around) else None
+    linked = [part for part, container in zip(parts, around) if container and not shared]
+    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in linked):
+        raise InvalidInput("{} is in a container of some of the parts; move it out of there".format(analysis.Label))
     compound = document.addObject("Part::Compound", "MeshedParts")
-    compound.Links = parts
+    if shared:
+        shared.addObject(compound)
+    compound.Links = [_link_to(part) if part in linked else part for part in parts]
     compound.recompute()
     if not shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))):
         raise InvalidInput("the parts are in containers that move them; put them into one App::Part and take that")
     return compound
+
+
+def _link_to(part):
+    """A new hidden link to an object in containers, which shows it where it stands."""
+    link = part.Document.addObject("App::Link", part.Name)
+    link.Label = part.Label
+    link.setLink(*shapes.selection_path(part))
+    link.LinkTransform = True
+    link.Visibility = False
+    link.recompute()
+    return link
 
 
 @_recorded

@@ -28,7 +28,7 @@ class MeshFromShape:
     def Activated(self):
         from .task_panel import MeshPanel
 
-        chosen = self._selected()
+        chosen = shapes.distinct(self._selected())
         try:
             shapes.check_solid(shapes.shape_of(chosen))
             part = chosen[0]

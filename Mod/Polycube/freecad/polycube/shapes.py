@@ -83,6 +83,17 @@ def selection_path(obj):
     return top, path + obj.Name + "."
 
 
+def distinct(parts):
+    """Document objects, each once, without those that stand in another of them."""
+    chosen = {part.Name: part for part in parts}
+
+    def is_inside(part):
+        around = container_of(part)
+        return around is not None and (around.Name in chosen or is_inside(around))
+
+    return [part for part in chosen.values() if not is_inside(part)]
+
+
 def solid_object(part):
     """The object whose faces the names Face1, Face2 ... of a mesh of `part` number: of a container with one solid inside, the object of that."""
     inside = solid_objects(part)
@@ -183,13 +194,17 @@ def solids_in(part, obj, names):
 
 
 def solid_objects(part):
-    """The objects with solids inside a container or a list, the part itself if it is none. What another of them was made of, and is hidden, does not count."""
+    """The objects with solids inside a container or a list, the part itself if it is none. What another of them was made of, and is hidden, does not count; nor
+    does a compound of what is there itself, such as the one that several objects are meshed as."""
     import Part
 
     members = _members(part)
     if members is None:
         return [part]
     inside = {member.Name: member for child in members for member in solid_objects(child) if Part.getShape(member).Solids}
+    for member in list(inside.values()):
+        if member.isDerivedFrom("Part::Compound") and all(one.Name in inside and one.Visibility for one in member.Links):
+            del inside[member.Name]
     used = {used.Name for member in inside.values() for used in member.OutListRecursive}
     return [member for member in inside.values() if member.Visibility or member.Name not in used]
 

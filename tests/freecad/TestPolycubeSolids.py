@@ -238,6 +238,24 @@ class Assemblies(BarsTest):
             self.assertEqual(len(self.document.Objects), before)
             self.assertEqual(len(shapes.shape_of(containers[0]).Solids), 3 - count)
 
+    def test_labels_of_the_objects(self):
+        """In the report and in refusals, by the objects of a list, of a compound, of fragments and of containers."""
+        parts, containers = self.in_containers(2)
+        for part, label in zip(parts, ("Flange, left", "Bolzen \u00d8 8")):
+            part.Label = label
+        expected = [part.Label for part in parts]
+        with polycube.prepare(parts, size=5, order=1) as session:
+            self.assertEqual([solid["label"] for solid in session.mesh().report["solids"]], expected)
+        for thing in (parts, containers, polycube.compound_of(parts)):
+            self.assertEqual([solid["label"] for solid in polycube.mesh(thing, size=5, order=1).report["solids"]], expected)
+        shape_alone = polycube.mesh([part.Shape for part in self.bars()], size=5, order=1)
+        self.assertEqual([solid["label"] for solid in shape_alone.report["solids"]], ["", ""])
+        parts = self.bars()
+        parts[0].Label, parts[1].Placement.Base = "Flange", Vector(15, 0, 0)
+        self.document.recompute()
+        with self.assertRaisesRegex(polycube.InvalidInput, 'Solid1 "Flange" and Solid2 "{}" overlap: they have 500 mm'.format(parts[1].Label)):
+            polycube.create_fem_mesh(parts, size=5, order=1)
+
     def test_a_container_after_its_objects(self):
         """The compound that they were meshed as is no solid beside them."""
         parts, (container,) = self.in_containers(1)

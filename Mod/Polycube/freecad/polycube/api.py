@@ -73,7 +73,7 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     >>> sorted(result.groups)[:2]
     ['Edge1', 'Edge10']
     """
-    return _run("mesh", shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
+    return _run("mesh", shape_or_object, shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
 
 
 def prepare(shape_or_object, **options):
@@ -90,7 +90,7 @@ def prepare(shape_or_object, **options):
 
     shape = shapes.shape_of(shape_or_object)
     shapes.check_solid(shape)
-    return Session(shape.copy(), _given(**options))
+    return Session(shape.copy(), _given(**options), shapes.solid_labels(shape_or_object))
 
 
 def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
@@ -102,17 +102,17 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
     >>> found.valid, len(found.face_label)
     (True, 6)
     """
-    return _run("labels", shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
+    return _run("labels", shape_or_object, shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
 
 
-def _run(what, shape, given, progress, log, cancel):
+def _run(what, part, shape, given, progress, log, cancel):
     from . import job
 
     shapes.check_solid(shape)
     run = job.run
     if FreeCAD.GuiUp and threading.current_thread() is threading.main_thread():
         from .waiting import run
-    with job.Job(shape, given, what) as work:
+    with job.Job(shape, given, what, shapes.solid_labels(part)) as work:
         return run(work, progress, log, cancel)
 
 
@@ -153,7 +153,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
         return obj
     meshed = shapes.signature(shape)
     _tell_uncaptured(part, analysis)
-    result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
+    result = _run("mesh", part, shape, with_constraints(given, part, analysis), progress, log, cancel)
     for one in parts:
         _check_object(one)
     with transaction(document, "Hexahedral mesh from shape"):
@@ -221,7 +221,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     meshed = shapes.signature(shape)
     _tell_uncaptured(part, objects.analysis_of(obj))
     wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
-    result = _run("mesh", shape, wanted, progress, log, cancel)
+    result = _run("mesh", part, shape, wanted, progress, log, cancel)
     _check_mesh(obj)
     with transaction(obj.Document, "Hexahedral mesh"):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))

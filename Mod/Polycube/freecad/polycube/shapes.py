@@ -31,6 +31,31 @@ def shape_of(thing, beside=None):
     return found[0] if len(found) == 1 else Part.makeCompound(found)
 
 
+def solid_labels(thing):
+    """Per solid of shape_of(thing) the label of the object that it comes from, of a compound or of fragments that of the member; nothing of a bare shape."""
+    if isinstance(thing, (list, tuple)):
+        return [label for one in thing for label in solid_labels(one)]
+    if not hasattr(thing, "Document"):
+        return [""] * len(thing.Solids)
+    return [label for obj in solid_objects(thing) for label in _labels_of(obj)]
+
+
+def _labels_of(obj):
+    import Part
+
+    whole = getattr(obj, "Shape", None) or Part.getShape(obj)
+    labels = [obj.Label] * len(whole.Solids)
+    for member in obj.OutList if len(labels) > 1 else ():
+        shape = getattr(member, "Shape", None)
+        for solid in shape.Solids if shape else ():
+            number = number_of(whole, solid)
+            if number:
+                # A link into a container, as compounds of ours have, stands for what is there.
+                inside = isinstance(getattr(member, "LinkedObject", None), tuple)
+                labels[number - 1] = (member.getLinkedObject() if inside else member).Label
+    return labels
+
+
 def _standing_shape(part, beside):
     import FreeCAD
     import Part

@@ -221,6 +221,7 @@ Assembly Assembly::of(const FileShape& read, const ReadOptions& options, const M
     for (const auto& [shape, text] : read.labels)
       if (shape.IsSame(solid_in(solid.solid))) label = text;
     const int number = static_cast<int>(assembly.labels.size());
+    if (label.empty() && options.labels.size() == found.solids.size()) label = options.labels[static_cast<std::size_t>(number) - 1];
     try {
       assembly.solids.push_back(CadModel(described(solid, one ? read.warnings : std::vector<std::string>(), monitor)));
     } catch (const InvalidInput& error) {

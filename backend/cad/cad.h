@@ -48,8 +48,9 @@ struct EdgePoint {
 };
 
 struct ReadOptions {
-  std::string object{};  ///< name or label of the object to take from a FreeCAD document
-  bool sew = true;       ///< take faces without a solid for one if they sew to it within the file's own tolerance
+  std::string object{};               ///< name or label of the object to take from a FreeCAD document
+  bool sew = true;                    ///< take faces without a solid for one if they sew to it within the file's own tolerance
+  std::vector<std::string> labels{};  ///< of the solids, in the order of FreeCAD's names, where the shape has none itself
 };
 
 /// One valid solid. Copies share the shape. All const members are safe to call from several threads at once.

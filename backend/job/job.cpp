@@ -173,8 +173,19 @@ void limit_time(Monitor& monitor, const MeshOptions& options) {
     monitor.set_deadline(Monitor::Clock::now() + std::chrono::duration_cast<Monitor::Clock::duration>(std::chrono::duration<double>(options.time_limit)));
 }
 
+/// Of the solids, where the caller left some.
+std::vector<std::string> read_labels(const std::string& folder) {
+  const std::string path = folder + "/solids.json";
+  if (!std::filesystem::exists(path)) return {};
+  try {
+    return Json::parse(read_text(path)).get<std::vector<std::string>>();
+  } catch (const Json::exception&) {
+    throw InvalidInput(path + " is no list of texts");
+  }
+}
+
 Assembly read_shape(const std::string& folder, const MeshOptions& options, const Monitor& monitor) {
-  return Assembly::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew}, monitor);
+  return Assembly::from_brep(read_text(folder + "/shape.brep"), {.object = {}, .sew = options.sew, .labels = read_labels(folder)}, monitor);
 }
 
 void work(const std::string& folder, JobKind kind) {

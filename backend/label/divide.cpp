@@ -150,14 +150,25 @@ std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning) {
   return cuts;
 }
 
+std::vector<FaceCut> cone_cuts(const Vec3& axis, double along) {
+  int k = 0;
+  if (axis.cwiseAbs().maxCoeff(&k) < kLabelTuning.aligned_cosine) return {};
+  if (std::abs(along) < kLabelTuning.least_share || std::abs(along) > kLabelTuning.flat_cosine) return {};
+  return {{Vec3::Unit(k), 0.5, false, false, ConePart::kUpper}, {Vec3::Unit(k), 0.5, false, false, ConePart::kLower}};
+}
+
+double cut_middle(const TetMesh& mesh, int face, const FaceCut& cut, const Mat3& frame) {
+  const auto [low, high] = extent_along(mesh, face, cut.across, frame);
+  return low + cut.share * (high - low);
+}
+
 TetMesh cut_faces(TetMesh mesh, const std::vector<FaceCut>& cuts, const Mat3& frame, const Monitor& monitor) {
   Cutter cutter{mesh, mesh.triangle_face};
   for (int& r : cutter.region) r *= 8;
   for (std::size_t face = 1; face < cuts.size(); ++face) {
     const FaceCut& c = cuts[face];
     if (!c.exact) continue;
-    const auto [low, high] = extent_along(mesh, static_cast<int>(face), c.across, frame);
-    const double middle = low + c.share * (high - low);
+    const double middle = cut_middle(mesh, static_cast<int>(face), c, frame);
     cutter.cut(
         static_cast<int>(face), 0, [&](const Vec3& p) { return c.across.dot(frame * p) - middle; }, monitor);
   }

@@ -8,12 +8,16 @@
 
 namespace polycube {
 
+/// Of the two parts of a cone that is cut across its axis, the one that faces along the axis; the other faces sideways.
+enum class ConePart { kNone, kLower, kUpper };
+
 /// A straight cut through an oblique plane or a bent face: `share` of its extent along `across` lies below. The usual way where `across` is zero.
 struct FaceCut {
   Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
   double share = 0.5;
-  bool thirds = false;  ///< instead: three parts that meet in its middle, as the faces of a cube do in a corner
-  bool exact = false;   ///< the mesh is cut there beforehand (cut_faces): the parts may be narrower than its triangles
+  bool thirds = false;               ///< instead: three parts that meet in its middle, as the faces of a cube do in a corner
+  bool exact = false;                ///< the mesh is cut there beforehand (cut_faces): the parts may be narrower than its triangles
+  ConePart level = ConePart::kNone;  ///< of a cone
 };
 
 /// The part (0, 1, 2: the axis that it faces) of a plane divided in thirds, `way` from its middle.
@@ -24,6 +28,12 @@ double third_side(const Vec3& normal, const Vec3& way, int part, int other);
 /// Ways to divide an oblique plane with this normal so that each part can face an axis of its own: at some shares of its extent, and half way between CAD
 /// vertices that follow each other across it, since what ends on it there may need one side for itself. `vertices`: of its border; all in the frame.
 std::vector<FaceCut> plane_cuts(const Vec3& normal, const std::vector<Vec3>& vertices);
+
+/// Ways to divide a cone round an axis of the frame in two rings, of which one faces along the axis: the hypotenuse of a section that is turned round the axis,
+/// such as a weld's. None where the cone is all but a cylinder or a disc. `axis`: its own, in the frame; `along`: share of it in the cone's normals.
+std::vector<FaceCut> cone_cuts(const Vec3& axis, double along);
+/// Where a face is cut, along `cut.across`.
+double cut_middle(const TetMesh& mesh, int face, const FaceCut& cut, const Mat3& frame);
 
 /// The mesh cut where `cuts` (per CAD face) are exact.
 TetMesh cut_faces(TetMesh mesh, const std::vector<FaceCut>& cuts, const Mat3& frame, const Monitor& monitor);

@@ -40,7 +40,10 @@ struct Setup {
   double scale;             // mm
 
   bool has_tip(int face) const { return tips && !tips->axis[face].isZero(); }
+  bool is_cut_cone(int face) const { return cuts[face].level != ConePart::kNone; }
 };
+
+Vec3 across(const Vec3& axis, const Vec3& n) { return (n - n.dot(axis) * axis).normalized(); }
 
 Vec3 triangle_normal(const TetMesh& mesh, int t) {
   const Triangle& tri = mesh.triangles[t];
@@ -52,8 +55,11 @@ Vec3 triangle_normal(const TetMesh& mesh, int t) {
 // are that they continue.
 //
 // A blunt cone, such as the tip that a drill leaves, counts as the disc that it all but is: labels across its axis would meet in its tip.
+//
+// Of a cone that is cut in two rings this is the one that faces sideways.
 Vec3 as_seen(const Setup& s, int face_id, Vec3 n) {
   const CadFace& face = s.model.face(face_id);
+  if (s.is_cut_cone(face_id)) return across(s.cuts[face_id].across, n);
   if (face.kind == SurfaceKind::kCone) {
     const Vec3 axis = s.frame * face.axis;
     if (std::abs(n.dot(axis)) > kLabelTuning.blunt_cosine) return n.dot(axis) > 0 ? axis : Vec3(-axis);
@@ -90,6 +96,25 @@ double change_weight(double angle, bool same_face) {
   return std::abs(angle - std::numbers::pi) > kLabelTuning.sharp_bend ? 0.1 : 0.5;
 }
 
+/// One ring of each cone that is cut faces along its axis, the other sideways.
+void face_cut_cones(Setup& s) {
+  std::vector<double> middle(s.cuts.size(), 0);
+  for (const int f : s.model.faces()) {
+    if (!s.is_cut_cone(f)) continue;
+    middle[f] = cut_middle(s.mesh, f, s.cuts[f], s.frame);
+    s.whole[f] = 0;
+  }
+  for (std::size_t t = 0; t < s.normal.size(); ++t) {
+    const int f = s.mesh.triangle_face[t];
+    if (!s.is_cut_cone(f)) continue;
+    const auto& [a, b, c] = s.mesh.triangles[t];
+    const Vec3& axis = s.cuts[f].across;
+    const bool upper = axis.dot(s.frame * (s.mesh.points[a] + s.mesh.points[b] + s.mesh.points[c])) / 3 > middle[f];
+    const bool level = upper == (s.cuts[f].level == ConePart::kUpper);
+    s.normal[t] = level ? Vec3(s.normal[t].dot(axis) > 0 ? axis : Vec3(-axis)) : across(axis, s.normal[t]);
+  }
+}
+
 Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, const Tips* tips, const Mat3& frame, std::vector<FaceCut> face_cuts,
               const Room* room) {
   Setup s{model, mesh, options, tips, std::move(face_cuts), room, frame, {}, {}, {}, {}, 0.02 * model.diagonal()};
@@ -111,8 +136,10 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     if (cosine < std::cos(options.widest_bend)) s.whole[f] = 0;
     if (cosine < kLabelTuning.flat_cosine) s.flat[f] = 0;
   }
+  face_cut_cones(s);
   for (std::size_t t = 0; t < n; ++t) {
     const int f = mesh.triangle_face[t];
+    if (s.is_cut_cone(f)) continue;
     if (!s.has_tip(f)) {
       s.normal[t] = as_seen(s, f, s.normal[t]);
       continue;
@@ -123,6 +150,10 @@ Setup prepare(const CadModel& model, const TetMesh& mesh, const LabelOptions& op
     if (!tips->upper[t] && !sideways.isZero(1e-3)) s.normal[t] = sideways.normalized();
   }
   return s;
+}
+
+bool is_barred(const LabelOptions& options, int face, int label) {
+  return std::find(options.barred.begin(), options.barred.end(), std::pair(face, label)) != options.barred.end();
 }
 
 // Graph cut over triangles, those of a whole face (and of a face the user labelled) taken together. Returns labels per triangle.
@@ -147,7 +178,7 @@ std::vector<int> cut_triangles(const Setup& s, const Monitor& monitor) {
     const double scale = face.radius > 0 ? std::min(s.scale, 0.5 * face.radius) : s.scale;
     for (int l = 0; l < 6; ++l) {
       double cost = s.options.fidelity * data_cost(s, static_cast<int>(t), l) * s.area[t] / (scale * s.scale);
-      if (given[f] >= 0 && given[f] != l) cost = kForbidden;
+      if ((given[f] >= 0 && given[f] != l) || is_barred(s.options, f, l)) cost = kForbidden;
       const bool planar = face.kind == SurfaceKind::kPlane && s.normal[t].cwiseAbs().maxCoeff() > kLabelTuning.aligned_cosine;
       if (given[f] < 0 && planar && label_sign(l) * s.normal[t][label_axis(l)] < kLabelTuning.aligned_cosine) cost = kForbidden;
       problem.data[node[t]][l] = std::min(problem.data[node[t]][l] + cost, kForbidden);
@@ -295,7 +326,7 @@ std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& jo
       result.push_back({a, b, halves.third_border(face, p % 8, q % 8), ends});
       continue;
     }
-    if (halves.sloping(face) && p % 8 != q % 8 && p / 8 == q / 8) {
+    if (halves.sloping(face) && p % 8 != q % 8 && (p / 8 == q / 8 || s.is_cut_cone(face))) {
       half_way.push_back({p % 8 > q % 8 ? arc.left : arc.right, p % 8 > q % 8 ? arc.right : arc.left, halves.border(face, p / 8 % 8), ends});
       continue;
     }
@@ -359,7 +390,7 @@ std::unique_ptr<Plan> make_plan(const CadModel& model, const TetMesh& mesh, cons
     }
     r.normal.normalize();  // a zero one stays
     for (int l = 0; l < 6; ++l) {
-      if (given[r.face] >= 0 && given[r.face] != l) r.data[l] = kForbidden;
+      if ((given[r.face] >= 0 && given[r.face] != l) || is_barred(options, r.face, l)) r.data[l] = kForbidden;
     }
     region_label.push_back(static_cast<int>(std::max_element(votes.begin(), votes.end()) - votes.begin()));
   }
@@ -401,6 +432,14 @@ bool label_changes_at_tip(const Plan& plan) {
   return std::any_of(labels.begin(), labels.end(), [](const auto& tip) { return tip.second.size() > 1; });
 }
 
+// Share of the axis of a cone in its normals.
+double share_along_axis(const Setup& s, int face) {
+  for (std::size_t t = 0; t < s.area.size(); ++t) {
+    if (s.mesh.triangle_face[t] == face) return triangle_normal(s.mesh, static_cast<int>(t)).normalized().dot(s.model.face(face).axis);
+  }
+  return 0;
+}
+
 // The ways to divide a face at fault.
 std::vector<FaceCut> cuts_of(const Plan& plan, int face) {
   const Setup& s = plan.setup;
@@ -422,7 +461,11 @@ std::vector<FaceCut> cuts_of(const Plan& plan, int face) {
     if (s.mesh.triangle_face[t] == face) turning = turning.cwiseMax((s.normal[t] - mean).cwiseAbs());
   }
   if (s.flat[face] && plan.half->sloping(face)) return plane_cuts(mean, vertices);
-  return bent_cuts(mean, turning);
+  std::vector<FaceCut> cuts;
+  if (s.model.face(face).kind == SurfaceKind::kCone) cuts = cone_cuts(s.frame * s.model.face(face).axis, share_along_axis(s, face));
+  const std::vector<FaceCut> bent = bent_cuts(mean, turning);
+  cuts.insert(cuts.end(), bent.begin(), bent.end());
+  return cuts;
 }
 
 double cost(const Plan& plan) { return region_energy(plan.graph, plan.label); }

@@ -21,6 +21,7 @@ struct LabelOptions {
   bool facing = false;                            ///< regions that stand square to their label's axis, or face away, are violations, and divided at more places
   bool gradual = true;                            ///< strictness is reached by doubling, so that violations that little cost mends are mended by little
   std::vector<std::pair<int, int>> face_labels;   ///< (CAD face, label 0..5) given by the user
+  std::vector<std::pair<int, int>> barred;        ///< (CAD face, label 0..5) that no part of the face may have
   bool frame_given = false;
   Mat3 frame = Mat3::Identity();  ///< rows: the axes, right-handed
   int threads = 2;                ///< the result does not depend on it

@@ -4,11 +4,13 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "core/charts.h"
 #include "core/sorted.h"
 #include "label/choice.h"
 #include "label/validity.h"
+#include "pipeline/tuning.h"
 
 namespace polycube {
 namespace {
@@ -180,35 +182,108 @@ class Skin {
 
 }  // namespace
 
+namespace {
+
+/// Labels that no part of a face may have, as its solid sees them.
+using Barred = std::set<std::pair<int, int>>;
+
+struct Attempt {
+  ConformalLabels labels;
+  std::vector<int> at_fault;  ///< solids that have faults with what those before them gave, in the order in which they were labelled
+};
+
+class Labeller {
+ public:
+  Labeller(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, const GivenLabels& given, int attempt, const Monitor& monitor)
+      : model_(model), tets_(tets), options_(options), given_(given), attempt_(attempt), monitor_(monitor) {}
+
+  Attempt label(const std::vector<int>& order, const Barred& barred) const {
+    Skin skin(model_, tets_);
+    Attempt result;
+    double faults = 0;
+    for (const int s : order) {
+      const CadModel& solid = model_.solids[static_cast<std::size_t>(s)];
+      const TetMesh view = skin.view(s);
+      LabelOptions own = options_;
+      own.face_labels = given_.faces[static_cast<std::size_t>(s)];
+      for (const auto& label : skin.given_by_others(s))
+        if (std::none_of(own.face_labels.begin(), own.face_labels.end(), [&](const auto& known) { return known.first == label.first; }))
+          own.face_labels.push_back(label);
+      std::sort(own.face_labels.begin(), own.face_labels.end());
+      for (const auto& label : barred)
+        if (has(solid.faces(), label.first)) own.barred.push_back(label);
+      LabelChoice choice(solid, view, own, {options_.frame}, given_.left_out, monitor_);
+      const std::vector<LabelVariant>& variants = choice.order();
+      const Labelled& chosen = choice.labelled(variants[static_cast<std::size_t>(attempt_) % variants.size()]);
+      const double score = find_violations(chosen.mesh, options_.frame, skin.agreed(s, chosen.mesh, chosen.labelling.label)).score;
+      if (score > 0) result.at_fault.push_back(s);
+      faults += score;
+      skin.take(s, chosen.mesh, chosen.labelling.label);
+    }
+    result.labels = skin.labels(options_.frame);
+    result.labels.faults = faults + find_violations(result.labels.mesh, options_.frame, result.labels.labelling.label).score;
+    return result;
+  }
+
+ private:
+  const ConformalModel& model_;
+  const TetMesh& tets_;
+  const LabelOptions& options_;
+  const GivenLabels& given_;
+  int attempt_;
+  const Monitor& monitor_;
+};
+
+/// Where the outsides of two solids meet with opposite labels, as a ball's with the plate that it is let into a little, nothing is left of what is between
+/// them: the face of the solid that was labelled later may not have that label.
+Barred opposite_outsides(const ConformalModel& model, const ConformalLabels& labels, const std::vector<int>& order) {
+  const auto turn = [&](int face) {
+    return std::find_if(order.begin(), order.end(), [&](int s) { return has(model.solids[static_cast<std::size_t>(s)].faces(), face); }) - order.begin();
+  };
+  const TetMesh& mesh = labels.mesh;
+  const std::vector<int>& label = labels.labelling.label;
+  const auto neighbours = triangle_neighbours(mesh.triangles);
+  Barred barred;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int n : neighbours[t]) {
+      if (n < 0 || label[static_cast<std::size_t>(n)] != (label[t] ^ 1)) continue;
+      if (turn(mesh.triangle_face[static_cast<std::size_t>(n)]) < turn(mesh.triangle_face[t])) barred.insert({mesh.triangle_face[t], label[t]});
+    }
+  }
+  return barred;
+}
+
+}  // namespace
+
 ConformalLabels label_conformally(const ConformalModel& model, const TetMesh& tets, const LabelOptions& options, const GivenLabels& given, int attempt,
                                   const Monitor& monitor) {
-  Skin skin(model, tets);
+  const Labeller labeller(model, tets, options, given, attempt, monitor);
   // Those with most faces first: the others are more likely to follow.
   std::vector<int> order(model.solids.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return model.solids[static_cast<std::size_t>(a)].faces().size() > model.solids[static_cast<std::size_t>(b)].faces().size();
   });
-  double faults = 0;
-  for (const int s : order) {
-    const CadModel& solid = model.solids[static_cast<std::size_t>(s)];
-    const TetMesh view = skin.view(s);
-    LabelOptions own = options;
-    own.face_labels = given.faces[static_cast<std::size_t>(s)];
-    for (const auto& label : skin.given_by_others(s))
-      if (std::none_of(own.face_labels.begin(), own.face_labels.end(), [&](const auto& known) { return known.first == label.first; }))
-        own.face_labels.push_back(label);
-    std::sort(own.face_labels.begin(), own.face_labels.end());
-    LabelChoice choice(solid, view, own, {options.frame}, given.left_out, monitor);
-    const std::vector<LabelVariant>& variants = choice.order();
-    const Labelled& chosen = choice.labelled(variants[static_cast<std::size_t>(attempt) % variants.size()]);
-    faults += find_violations(chosen.mesh, options.frame, skin.agreed(s, chosen.mesh, chosen.labelling.label)).score;
-    skin.take(s, chosen.mesh, chosen.labelling.label);
+  Attempt now = labeller.label(order, {});
+  ConformalLabels best = now.labels;
+  Barred barred;
+  std::set<int> first;
+  // Another order costs as much again: only the first labelling is worth it, and only if it has no faults then.
+  for (int tries = 0; attempt == 0 && now.labels.faults > 0 && tries < kPipelineTuning.conform_labellings; ++tries) {
+    const auto stuck = std::find_if(now.at_fault.begin(), now.at_fault.end(), [&](int s) { return s != order.front() && !first.contains(s); });
+    const std::size_t known = barred.size();
+    barred.merge(opposite_outsides(model, now.labels, order));
+    if (stuck == now.at_fault.end() && barred.size() == known) break;
+    if (stuck != now.at_fault.end()) {  // one that cannot follow decides itself
+      first.insert(*stuck);
+      const auto at = std::find(order.begin(), order.end(), *stuck);
+      std::rotate(order.begin(), at, at + 1);
+    }
+    now = labeller.label(order, barred);
   }
-  ConformalLabels result = skin.labels(options.frame);
-  result.faults = faults;
-  monitor.log("conform: labelling " + std::to_string(attempt + 1) + ": score " + std::to_string(faults));
-  return result;
+  if (now.labels.faults == 0) best = now.labels;
+  monitor.log("conform: labelling " + std::to_string(attempt + 1) + ": score " + std::to_string(best.faults));
+  return best;
 }
 
 InterfaceCharts interface_charts(const ConformalLabels& labels) {

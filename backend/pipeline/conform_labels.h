@@ -12,7 +12,7 @@ struct ConformalLabels {
   TetMesh mesh;                  ///< of all solids, cut along the borders of the labels
   Labelling labelling;           ///< of its triangles, the outer boundary
   std::vector<int> inner_label;  ///< per inner triangle, as the solid with the lower index sees it
-  double faults = 0;             ///< Violations::score, summed over the solids, each with all of its boundary
+  double faults = 0;             ///< Violations::score, summed over the solids, each with all of its boundary, and the outside of all
 };
 
 /// What is given: labels of faces per solid, as it sees them, and per joined edge whether it is left out.

@@ -205,6 +205,96 @@ class Assemblies(BarsTest):
         self.assertAlmostEqual(obj.FemMesh.BoundBox.ZMax, 70)
         self.assertAlmostEqual(obj.FemMesh.BoundBox.XMin, -10)
 
+    TURNED = FreeCAD.Placement(Vector(5, 6, 7), FreeCAD.Rotation(Vector(0, 0, 1), 90))
+
+    def in_containers(self, count):
+        """(bars one behind the other in turned containers, containers): one container for both, or one for each."""
+        parts = self.bars()
+        containers = [self.document.addObject("App::Part", "Container") for _ in range(count)]
+        for number, container in enumerate(containers):
+            container.Placement = self.TURNED
+            container.addObjects(parts if count == 1 else [parts[number]])
+        self.document.recompute()
+        return parts, containers
+
+    def test_objects_in_moved_containers(self):
+        """Those of one container or of several, and a container beside an object of another; the mesh stands where they do, and is out of date when one is moved."""
+        for count, choose in ((1, lambda parts, _: parts), (2, lambda parts, _: parts), (2, lambda parts, containers: [containers[0], parts[1]])):
+            parts, containers = self.in_containers(count)
+            before = len(self.document.Objects)
+            obj = self.check(choose(parts, containers), 2, 1)
+            box = obj.FemMesh.BoundBox
+            for one, expected in zip((box.XMin, box.XMax, box.YMin, box.YMax, box.ZMin), (-5, 5, 6, 46, 7)):
+                self.assertAlmostEqual(one, expected)
+            self.document.recompute()
+            self.assertEqual(obj.MeshState, objects.CURRENT)
+            for part in parts:
+                faces = shapes.names_in(objects.part_of(obj), part, ["Face{}".format(n) for n in range(1, 7)])
+                self.assertEqual(len(set(faces)), 6)
+            containers[-1].Placement.Base = Vector(0, 0, 100)
+            self.document.recompute()
+            self.assertEqual(obj.MeshState, objects.OUTDATED)
+            self.document.undo()
+            self.assertEqual(len(self.document.Objects), before)
+            self.assertEqual(len(shapes.shape_of(containers[0]).Solids), 3 - count)
+
+    def test_labels_of_the_objects(self):
+        """In the report and in refusals, by the objects of a list, of a compound, of fragments and of containers."""
+        parts, containers = self.in_containers(2)
+        for part, label in zip(parts, ("Flange, left", "Bolzen \u00d8 8")):
+            part.Label = label
+        expected = [part.Label for part in parts]
+        with polycube.prepare(parts, size=5, order=1) as session:
+            self.assertEqual([solid["label"] for solid in session.mesh().report["solids"]], expected)
+        for thing in (parts, containers, polycube.compound_of(parts)):
+            self.assertEqual([solid["label"] for solid in polycube.mesh(thing, size=5, order=1).report["solids"]], expected)
+        shape_alone = polycube.mesh([part.Shape for part in self.bars()], size=5, order=1)
+        self.assertEqual([solid["label"] for solid in shape_alone.report["solids"]], ["", ""])
+        parts = self.bars()
+        parts[0].Label, parts[1].Placement.Base = "Flange", Vector(15, 0, 0)
+        self.document.recompute()
+        with self.assertRaisesRegex(polycube.InvalidInput, 'Solid1 "Flange" and Solid2 "{}" overlap: they have 500 mm'.format(parts[1].Label)):
+            polycube.create_fem_mesh(parts, size=5, order=1)
+
+    def test_a_container_after_its_objects(self):
+        """The compound that they were meshed as is no solid beside them."""
+        parts, (container,) = self.in_containers(1)
+        self.check(parts, 2, 1)
+        self.check(container, 2, 1)
+
+    def test_an_object_twice(self):
+        """Named twice, or with the container that it is in, it is meant once."""
+        parts, containers = self.in_containers(2)
+        self.check([parts[0], parts[1], parts[0]], 2, 1)
+        self.check([containers[0], parts[0], containers[1]], 2, 1)
+        self.assertEqual(objects.part_of(polycube.create_fem_mesh([parts[0], parts[0]], size=5, order=1)), parts[0])
+
+    def test_materials_across_moved_containers(self):
+        """Materials and loads on objects in containers of their own: each bar stretches by its modulus."""
+        parts, _ = self.in_containers(2)
+        analysis = self.with_materials(parts, parts[0])
+        self.add(analysis, "Force", parts[1], "Face2", Force=1000, Direction=(parts[1], ["Face2"]))
+        obj = polycube.create_fem_mesh(parts, size=5, analysis=analysis)
+        whole = objects.part_of(obj)
+        solution = self.solve(analysis, whole)
+        moved = self.of_face(solution, analysis, shapes.names_in(whole, parts[1], ["Face2"])[0], solution.result.DisplacementVectors)
+        self.assertAlmostEqual(sum(vector.y for vector in moved) / len(moved) / (1000 / 100 * (20 / 210000 + 20 / 70000)), 1, delta=5e-3)
+
+    def test_an_analysis_in_a_container_of_the_parts(self):
+        """With both in one container it goes; with links to two containers, of which one holds the analysis, everything would depend on itself."""
+        for count in (1, 2):
+            parts, containers = self.in_containers(count)
+            analysis = ObjectsFem.makeAnalysis(self.document, "Analysis")
+            containers[0].addObject(analysis)
+            before = len(self.document.Objects)
+            if count == 1:
+                obj = self.check(parts, 2, 1, analysis=analysis)
+                self.assertAlmostEqual(obj.FemMesh.BoundBox.XMax, 40)
+            else:
+                with self.assertRaisesRegex(polycube.InvalidInput, "Analysis is in a container of some of the parts"):
+                    polycube.create_fem_mesh(parts, size=5, order=1, analysis=analysis)
+                self.assertEqual(len(self.document.Objects), before)
+
 
 class Interfaces(BarsTest):
     """FreeCAD's contact and tie between faces of two solids with nodes of their own, as CalculiX sees them: no Poisson's ratio, cells of other sizes on both sides."""

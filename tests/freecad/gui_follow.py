@@ -267,6 +267,41 @@ class BesideEachOther(FollowTest):
                 self.assertTrue(self.box.ViewObject.isVisible() and self.pin.ViewObject.isVisible())
                 self.assertEqual(self.lines, ["from freecad import polycube"])
 
+    def test_parts_in_moved_containers(self):
+        """In one, where the compound is too, and in one each, where it has links: they go with a panel that is closed, and another one finds them."""
+        for count in (1, 2):
+            with self.subTest(containers=count):
+                containers = [self.document.addObject("App::Part", "Container") for _ in range(count)]
+                for number, part in enumerate((self.box, self.pin)):
+                    containers[number % count].addObject(part)
+                containers[0].Placement.Base = FreeCAD.Vector(0, 30, 0)
+                self.document.recompute()
+                self.document.clearUndos()
+                before = sorted(obj.Name for obj in self.document.Objects)
+                panel = self.open_for_both()
+                other = self.document.addObject("App::FeaturePython", "Another")  # a step after that of the compound
+                self.document.removeObject(other.Name)
+                self.press("Cancel")
+                self.settle()
+                self.assertEqual(sorted(obj.Name for obj in self.document.Objects), before)
+                panel = self.open_for_both()
+                panel.field("size").value = 10.0
+                mesh = self.apply(panel)
+                self.assertGreater(mesh.FemMesh.BoundBox.YMax, 50)
+                self.press("Ok")
+                self.settle()
+                again = self.open_for_both()
+                self.assertEqual((again.part, again.obj), (panel.part, mesh))
+                self.press("Cancel")
+                self.settle()
+                self.document.removeObject(mesh.Name)
+                for member in [panel.part, *panel.part.Links]:
+                    if member not in (self.box, self.pin):
+                        self.document.removeObject(member.Name)
+                for container in containers:
+                    container.removeObjects([self.box, self.pin])
+                    self.document.removeObject(container.Name)
+
     def test_what_refers_to_the_compound_keeps_it(self):
         panel = self.open_for_both()
         other = self.document.addObject("Part::Compound", "Other")

@@ -114,6 +114,11 @@ class Errors(JobTest):
         folder = self.job(box())
         os.remove(os.path.join(folder, "shape.brep"))
         self.fails(folder, 1, "InvalidInput", "shape.brep cannot be read")
+        for wrong in ("nonsense", "[1, 2]", "{}"):
+            folder = self.job(box())
+            with open(os.path.join(folder, "solids.json"), "w", encoding="ascii") as file:
+                file.write(wrong)
+            self.fails(folder, 1, "InvalidInput", "solids.json is no list of texts")
 
     def test_a_stage_that_fails(self):
         error = self.fails(self.job(box()), 2, "StageFailed", ".", POLYCUBE_TET_WORKER="/bin/false")

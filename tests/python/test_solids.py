@@ -26,6 +26,12 @@ def shared(*solids):
     return whole
 
 
+def turned(*corners):
+    """A ring about Z whose section has these corners (radius, z)."""
+    points = [VECTOR(x, 0, z) for x, z in corners]
+    return Part.Face(Part.makePolygon([*points, points[0]])).revolve(VECTOR(), VECTOR(0, 0, 1), 360)
+
+
 def mesh(shape, **options):
     return _polycube.mesh(brep=shape.exportBrepToString(), **options)
 
@@ -249,6 +255,22 @@ class Conform(ConformTest):
         ring = Part.makeCylinder(10, 2, VECTOR(0, 0, 3)).cut(Part.makeCylinder(9, 2, VECTOR(0, 0, 3)))
         self.check(Part.Compound([Part.makeCylinder(10, 8).cut(ring), ring]), size=2.5, order=1, volume=0.1)
 
+    def test_rings_of_triangular_section(self):
+        """A weld round a pin on a plate, and a ring in a groove with two sides: one cone faces along the axis and sideways, on both sides of it."""
+        weld = turned((6, 4), (9, 4), (6, 7))
+        plate, pin = Part.makeBox(30, 30, 4, VECTOR(-15, -15, 0)), Part.makeCylinder(6, 20, VECTOR(0, 0, 4))
+        self.check(Part.Compound([plate, pin, weld]), size=2, order=1, volume=0.1)
+        ring = turned((10, 8), (8, 10), (10, 12))
+        self.check(Part.Compound([Part.makeCylinder(10, 20).cut(ring), ring]), size=2, order=1, volume=0.1)
+
+    def test_a_ball_let_into_plates_a_little(self):
+        """Its outside would face the plate's at the rim: there it may not be what the labels of the ball alone are."""
+        ball = Part.makeSphere(5, VECTOR(0, 0, 5))
+        plates = [Part.makeBox(20, 20, 4, VECTOR(-10, -10, z)).cut(ball) for z in (-3, 9)]
+        found = self.check(Part.Compound([plates[0], ball]), size=1.5, order=1, volume=0.2)
+        self.assertGreater(found.scaled_jacobian.min(), 0.5)
+        self.check(Part.Compound([plates[0], ball, plates[1]]), size=1.5, order=1, volume=0.2)
+
     def test_bushing_with_a_collar(self):
         """Layers under the outside go on along the bore between both: their cells are the bushing's, the interface stays where it is."""
         outside = Part.makeCylinder(5, 8).fuse(Part.makeCylinder(8, 2, VECTOR(0, 0, 8))).removeSplitter()
@@ -412,14 +434,16 @@ class Refusals(FolderTest):
         self.assertEqual(len(set(mesh(Part.Compound(boxes), size=1, interfaces="separate").hex_solid.tolist())), 4)
 
     def test_a_map_that_folds_is_told_with_its_faces(self):
-        """A ring in a groove with two sides only, which no polycube has: the sides are named, by the numbers of the shape."""
-        section = Part.Face(Part.makePolygon([VECTOR(10, 0, 3), VECTOR(7, 0, 4.5), VECTOR(10, 0, 6), VECTOR(10, 0, 3)]))
-        ring = section.revolve(VECTOR(), VECTOR(0, 0, 1), 360)
-        shape = Part.Compound([Part.makeCylinder(10, 9).cut(ring), ring])
-        sides = {"Face{}".format(n) for n, one in enumerate(shape.Faces, 1) if one.Surface.TypeId == "Part::GeomCone"}
-        with self.assertRaisesRegex(_polycube.StageFailed, "Solid1, Solid2: .*: the map folds; --interfaces separate") as refusal:
+        """Five sectors round one edge, where a polycube has room for four: their sides are named, by the numbers of the shape; by themselves they have a mesh."""
+        sectors = [Part.makeCylinder(10, 8, VECTOR(), VECTOR(0, 0, 1), 72) for _ in range(5)]
+        for number, sector in enumerate(sectors):
+            sector.rotate(VECTOR(), VECTOR(0, 0, 1), 72 * number)
+        shape = Part.Compound(sectors)
+        sides = {"Face{}".format(n) for n, one in enumerate(shape.Faces, 1) if one.CenterOfMass.z == 4}
+        with self.assertRaisesRegex(_polycube.StageFailed, "Solid1, .*, Solid5: .*: the map folds; --interfaces separate") as refusal:
             mesh(shape, size=2)
         self.assertTrue(sides & set(refusal.exception.entities))
+        self.assertEqual(len(mesh(shape, size=2, order=1, interfaces="separate").report["solids"]), 5)
 
     def test_what_touches_itself_in_a_point(self):
         """A cylinder tangent to the edge of the block below it; a ring tangent to the bolt holes of the plates on both sides."""

@@ -96,6 +96,10 @@ TopoDS_Shell five_faces(double size) {
   return shell;
 }
 
+TopoDS_Shape turned_triangle(const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& c) {
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakePolygon(a, b, c, true).Wire()).Face(), gp::OZ()).Shape();
+}
+
 TopoDS_Compound compound_of(const std::vector<TopoDS_Shape>& parts) {
   TopoDS_Compound result;
   const BRep_Builder builder;
@@ -240,6 +244,12 @@ std::string turned(double radius, double height, double groove) {
   profile.Add(BRepBuilderAPI_MakeEdge(tip, foot).Edge());
   const TopoDS_Shape turned = BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(profile.Wire()).Face(), gp::OZ()).Shape();
   return text(ShapeCustom::ConvertToRevolution(turned));
+}
+
+std::string weld(double radius, double width, double height) { return text(turned_triangle({radius, 0, 0}, {radius + width, 0, 0}, {radius, 0, height})); }
+
+std::string wedge_ring(double radius, double depth, double height) {
+  return text(turned_triangle({radius, 0, 0}, {radius, 0, height}, {radius - depth, 0, height / 2}));
 }
 
 std::string forked_bar(double radius, double arm) {

@@ -26,9 +26,12 @@ std::string bevelled_box(double size, double leg);                         ///< 
 std::string hollow_box(double size);                                       ///< cube with a cubic void: two shells
 std::string loft(double size, double height);                              ///< square to circle: ruled B-spline sides
 std::string turned(double radius, double height,
-                   double groove);                    ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
-std::string forked_bar(double radius, double arm);    ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
-std::string tangent_arm(double radius, double bore);  ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
+                   double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
+std::string weld(double radius, double width,
+                 double height);  ///< ring about Z on z = 0, a right triangle turned, its legs on the plane and towards the axis
+std::string wedge_ring(double radius, double depth, double height);  ///< ring about Z whose outside is a cylinder, its section a triangle with the tip inside
+std::string forked_bar(double radius, double arm);                   ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
+std::string tangent_arm(double radius, double bore);                 ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
 std::string ribbed_plate(double width,
                          double slope);         ///< plate with a rib along all of it, a right triangle that ends flush, its hypotenuse steep by slope : 1
 std::string lens(double width, double height);  ///< prism along Z over two arcs that meet at 60 degrees, `width` apart along X

@@ -117,6 +117,39 @@ TEST(BentCuts, MakeALensValid) {
   }
 }
 
+TEST(ConeCuts, AcrossAnAxisOfTheFrameWhereTheConeIsOblique) {
+  const std::vector<FaceCut> cuts = cone_cuts(-Vec3::UnitZ(), 0.7);
+  ASSERT_EQ(cuts.size(), 2u);
+  EXPECT_NE(cuts[0].level, cuts[1].level);
+  for (const FaceCut& c : cuts) {
+    EXPECT_EQ(c.across, Vec3::UnitZ());
+    EXPECT_NE(c.level, ConePart::kNone);
+  }
+  EXPECT_TRUE(cone_cuts(Vec3::UnitZ(), 0.05).empty());    // all but a cylinder
+  EXPECT_TRUE(cone_cuts(Vec3::UnitZ(), -0.999).empty());  // all but a disc
+  EXPECT_TRUE(cone_cuts(Vec3(1, 0, 1).normalized(), 0.7).empty());
+}
+
+// Rings with three sides: a cone must face along the axis and sideways, or labels of one axis meet.
+TEST(ConeCuts, MakeRingsOfTriangularSectionValid) {
+  for (const std::string& ring : {shapes::weld(6, 3, 3), shapes::weld(6, 2, 4), shapes::wedge_ring(10, 2, 4), shapes::wedge_ring(10, 3, 3)}) {
+    const CadModel model = CadModel::from_brep(ring);
+    TetMesh mesh = tets_of(model);
+    LabelReport report;
+    const Labelling labelling = label(model, mesh, LabelOptions(), Monitor(), &report);
+    EXPECT_TRUE(report.valid());
+    EXPECT_EQ(report.turning_points, 0);
+    std::size_t most = 0;  // labels of a cone
+    for (const int f : model.faces()) {
+      std::set<int> labels;
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        if (model.face(f).kind == SurfaceKind::kCone && mesh.triangle_face[t] == f) labels.insert(labelling.label[t]);
+      most = std::max(most, labels.size());
+    }
+    EXPECT_EQ(most, 5u);
+  }
+}
+
 TEST(DivideTips, InQuartersRoundTheAxisAndInHalvesUpIt) {
   const CadModel model = CadModel::from_brep(shapes::cone(5, 0, 12));
   const TetMesh mesh = tets_of(model);

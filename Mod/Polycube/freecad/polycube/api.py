@@ -74,7 +74,7 @@ def mesh(shape_or_object, size=None, order=2, progress=None, log=None, cancel=No
     >>> sorted(result.groups)[:2]
     ['Edge1', 'Edge10']
     """
-    return _run("mesh", shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
+    return _run("mesh", shape_or_object, shapes.shape_of(shape_or_object), _given(size=size, order=order, **more), progress, log, cancel)
 
 
 def prepare(shape_or_object, **options):
@@ -91,7 +91,7 @@ def prepare(shape_or_object, **options):
 
     shape = shapes.shape_of(shape_or_object)
     shapes.check_solid(shape)
-    return Session(shape.copy(), _given(**options))
+    return Session(shape.copy(), _given(**options), shapes.solid_labels(shape_or_object))
 
 
 def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
@@ -103,17 +103,17 @@ def labels(shape_or_object, progress=None, log=None, cancel=None, **more):
     >>> found.valid, len(found.face_label)
     (True, 6)
     """
-    return _run("labels", shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
+    return _run("labels", shape_or_object, shapes.shape_of(shape_or_object), _given(**more), progress, log, cancel)
 
 
-def _run(what, shape, given, progress, log, cancel):
+def _run(what, part, shape, given, progress, log, cancel):
     from . import job
 
     shapes.check_solid(shape)
     run = job.run
     if FreeCAD.GuiUp and threading.current_thread() is threading.main_thread():
         from .waiting import run
-    with job.Job(shape, given, what) as work:
+    with job.Job(shape, given, what, shapes.solid_labels(part)) as work:
         return run(work, progress, log, cancel)
 
 
@@ -134,10 +134,11 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     parts = list(part) if isinstance(part, (list, tuple)) else [part]
     for one in parts or [None]:
         _check_object(one)
-    part = parts if len(parts) > 1 else parts[0]
     document = parts[0].Document
     if any(one.Document != document for one in parts):
         raise InvalidInput("the parts are in different documents")
+    parts = shapes.distinct(parts)
+    part = parts if len(parts) > 1 else parts[0]
     if not isinstance(name, str) or not name:
         raise InvalidInput("name: not a name but {!r}".format(name))
     _check_analysis(analysis, parts[0])
@@ -146,18 +147,18 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
     if only_object:
         shapes.check_solid(shape)
         with transaction(document, tr("Hexahedral mesh from shape")):
-            obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
+            obj = objects.make(document, part if len(parts) == 1 else compound_of(parts, analysis), name)
             if analysis:
                 analysis.addObject(obj)
             option_table.write(obj, given)
         return obj
     meshed = shapes.signature(shape)
     _tell_uncaptured(part, analysis)
-    result = _run("mesh", shape, with_constraints(given, part, analysis), progress, log, cancel)
+    result = _run("mesh", part, shape, with_constraints(given, part, analysis), progress, log, cancel)
     for one in parts:
         _check_object(one)
     with transaction(document, tr("Hexahedral mesh from shape")):
-        obj = objects.make(document, part if len(parts) == 1 else compound_of(parts), name)
+        obj = objects.make(document, part if len(parts) == 1 else compound_of(parts, analysis), name)
         if analysis:
             analysis.addObject(obj)
         _warn(obj, objects.set_mesh(obj, result, given, meshed))
@@ -165,19 +166,48 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 
 
 @_recorded
-def compound_of(parts):
-    """A new Part::Compound of document objects, which stands where they stand. Raises InvalidInput where no compound can.
+def compound_of(parts, analysis=None):
+    """A new Part::Compound of document objects, which stands where they stand and follows them. Raises InvalidInput where no compound can.
+
+    Of objects in one App::Part it is in there too; of others in containers it has links, which follow these. `analysis`: that the mesh of it is to be in.
 
     >>> len(polycube.compound_of([part, other]).Shape.Solids)
     2
     """
+    parts = shapes.distinct(parts)
     document = parts[0].Document
+    around = [shapes.container_of(part) for part in parts]
+    shared = around[0] if around[0] and around[0].isDerivedFrom("App::Part") and all(one == around[0] for one in around) else None
+    linked = [part for part, container in zip(parts, around) if container and not shared]
+    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in linked):
+        raise InvalidInput("{} is in a container of some of the parts; move it out of there".format(analysis.Label))
     compound = document.addObject("Part::Compound", "MeshedParts")
-    compound.Links = parts
+    if shared:
+        shared.addObject(compound)
+    compound.Links = [_link_to(part) if part in linked else part for part in parts]
     compound.recompute()
     if not shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))):
         raise InvalidInput("the parts are in containers that move them; put them into one App::Part and take that")
     return compound
+
+
+def stands_for(member, part):
+    """Whether the member of a compound_of() some objects is there for this one: it itself, or the link to it."""
+    if member == part:
+        return True
+    path = shapes.selection_path(part)
+    return bool(path[1]) and member.isDerivedFrom("App::Link") and member.LinkedObject == path and member.Placement.isIdentity()
+
+
+def _link_to(part):
+    """A new hidden link to an object in containers, which shows it where it stands."""
+    link = part.Document.addObject("App::Link", part.Name)
+    link.Label = part.Label
+    link.setLink(*shapes.selection_path(part))
+    link.LinkTransform = True
+    link.Visibility = False
+    link.recompute()
+    return link
 
 
 @_recorded
@@ -200,7 +230,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     meshed = shapes.signature(shape)
     _tell_uncaptured(part, objects.analysis_of(obj))
     wanted = with_constraints(refinements.with_refinements(given, obj), part, objects.analysis_of(obj))
-    result = _run("mesh", shape, wanted, progress, log, cancel)
+    result = _run("mesh", part, shape, wanted, progress, log, cancel)
     _check_mesh(obj)
     with transaction(obj.Document, tr("Hexahedral mesh")):
         _warn(obj, objects.set_mesh(obj, result, given, meshed))

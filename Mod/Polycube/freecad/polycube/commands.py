@@ -29,7 +29,7 @@ class MeshFromShape:
     def Activated(self):
         from .task_panel import MeshPanel
 
-        chosen = self._selected()
+        chosen = shapes.distinct(self._selected())
         together = None
         try:
             shapes.check_solid(shapes.shape_of(chosen))
@@ -37,7 +37,7 @@ class MeshFromShape:
             if len(chosen) > 1:
                 part = _compound_with(chosen)
                 if not part:
-                    together = PutTogether(chosen)
+                    together = PutTogether(chosen, analyses.active(chosen[0].Document))
                     part = together.compound
         except InvalidInput as error:
             QtGui.QMessageBox.critical(FreeCADGui.getMainWindow(), tr("Hexahedral mesh"), "{}: {}".format(chosen[0].Label, error))
@@ -65,7 +65,7 @@ def _compound_with(parts):
     """A compound of just these parts that there is, as one that was meshed before, or None."""
     for compound in parts[0].Document.findObjects("Part::Compound"):
         links = compound.Links
-        if len(links) == len(parts) and all(part in links for part in parts):
+        if len(links) == len(parts) and all(any(api.stands_for(link, part) for link in links) for part in parts):
             return compound
     return None
 

@@ -29,9 +29,10 @@ _LOADERS = {"mesh": result.load, "labels": result.load_labels, "polycube": resul
 
 
 class Job:
-    """A folder with shape and options, ready to run; close() removes it. `what` is to be made of them: "mesh", "labels" or, for session.py, "session"."""
+    """A folder with shape and options, ready to run; close() removes it. `what` is to be made of them: "mesh", "labels" or, for session.py, "session". `labels`:
+    what the solids of the shape are called (shapes.solid_labels)."""
 
-    def __init__(self, shape, options, what="mesh"):
+    def __init__(self, shape, options, what="mesh", labels=()):
         self.what = what
         #: of the child, as far as it has told
         self.stage = ""
@@ -42,6 +43,8 @@ class Job:
         try:
             with open(os.path.join(self.folder, "shape.brep"), "w", encoding="ascii") as file:
                 file.write(shape.exportBrepToString())
+            with open(os.path.join(self.folder, "solids.json"), "w", encoding="ascii") as file:
+                json.dump(labels, file)
             write_options(self.folder, options)
         except BaseException:
             self.close()

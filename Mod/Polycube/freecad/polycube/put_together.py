@@ -8,15 +8,15 @@ from .words import tr
 
 
 class PutTogether:
-    """`compound`: a new one of these parts, in an undo step of its own. Raises InvalidInput where no compound can be."""
+    """`compound`: a new one of these parts, in an undo step of its own, for a mesh in `analysis`. Raises InvalidInput where no compound can be."""
 
-    def __init__(self, parts):
+    def __init__(self, parts, analysis=None):
         self._parts = [(part, part.ViewObject.Visibility) for part in parts]
         self._step = tr("Compound of the parts to mesh")
         self._is_recorded = False
         self._document_name = parts[0].Document.Name
         with api.transaction(parts[0].Document, self._step):
-            self.compound = api.compound_of(parts)
+            self.compound = api.compound_of(parts, analysis)
         # While a command runs FreeCAD ends no step, nor after it where it has opened a panel: all to come would be part of this one.
         QtCore.QTimer.singleShot(0, self._end_step)
 
@@ -35,13 +35,15 @@ class PutTogether:
         if self._document_name not in FreeCAD.listDocuments() or not shapes.exists(self.compound):
             return
         document = self.compound.Document
-        if objects.meshes_of(self.compound) or self.compound.InList:
+        if objects.meshes_of(self.compound) or any(not one.isDerivedFrom("App::Part") for one in self.compound.InList):
             return
         if document.UndoNames[:1] == [self._step]:
             document.undo()
         else:
+            links = [member for member in self.compound.Links if member not in [part for part, _ in self._parts]]
             with api.transaction(document, tr("Delete")):
-                document.removeObject(self.compound.Name)
+                for one in [self.compound, *links]:
+                    document.removeObject(one.Name)
         for part, was_shown in self._parts:
             if shapes.exists(part):
                 part.ViewObject.Visibility = was_shown

@@ -14,8 +14,8 @@ _FINENESS = ("size", "hexes", "coarsest")
 class Session:
     """Made by polycube.prepare(); close() ends it, as does the end of a with block. A mesh that was cancelled takes the child with it: the next one starts anew."""
 
-    def __init__(self, shape, options):
-        self._shape, self._options = shape, options
+    def __init__(self, shape, options, labels=()):
+        self._shape, self._options, self._labels = shape, options, labels
         self._job = self._child = None
         self._meshes = 0
         self._at_work = threading.Lock()
@@ -59,7 +59,7 @@ class Session:
         self._end()
 
     def _start(self):
-        self._job = job.Job(self._shape, self._options, "session")
+        self._job = job.Job(self._shape, self._options, "session", self._labels)
         self._child = subprocess.Popen(
             self._job.command(),
             stdin=subprocess.PIPE,

@@ -31,6 +31,31 @@ def shape_of(thing, beside=None):
     return found[0] if len(found) == 1 else Part.makeCompound(found)
 
 
+def solid_labels(thing):
+    """Per solid of shape_of(thing) the label of the object that it comes from, of a compound or of fragments that of the member; nothing of a bare shape."""
+    if isinstance(thing, (list, tuple)):
+        return [label for one in thing for label in solid_labels(one)]
+    if not hasattr(thing, "Document"):
+        return [""] * len(thing.Solids)
+    return [label for obj in solid_objects(thing) for label in _labels_of(obj)]
+
+
+def _labels_of(obj):
+    import Part
+
+    whole = getattr(obj, "Shape", None) or Part.getShape(obj)
+    labels = [obj.Label] * len(whole.Solids)
+    for member in obj.OutList if len(labels) > 1 else ():
+        shape = getattr(member, "Shape", None)
+        for solid in shape.Solids if shape else ():
+            number = number_of(whole, solid)
+            if number:
+                # A link into a container, as compounds of ours have, stands for what is there.
+                inside = isinstance(getattr(member, "LinkedObject", None), tuple)
+                labels[number - 1] = (member.getLinkedObject() if inside else member).Label
+    return labels
+
+
 def _standing_shape(part, beside):
     import FreeCAD
     import Part
@@ -81,6 +106,17 @@ def selection_path(obj):
         return obj, ""
     top, path = selection_path(around)
     return top, path + obj.Name + "."
+
+
+def distinct(parts):
+    """Document objects, each once, without those that stand in another of them."""
+    chosen = {part.Name: part for part in parts}
+
+    def is_inside(part):
+        around = container_of(part)
+        return around is not None and (around.Name in chosen or is_inside(around))
+
+    return [part for part in chosen.values() if not is_inside(part)]
 
 
 def solid_object(part):
@@ -183,13 +219,17 @@ def solids_in(part, obj, names):
 
 
 def solid_objects(part):
-    """The objects with solids inside a container or a list, the part itself if it is none. What another of them was made of, and is hidden, does not count."""
+    """The objects with solids inside a container or a list, the part itself if it is none. What another of them was made of, and is hidden, does not count; nor
+    does a compound of what is there itself, such as the one that several objects are meshed as."""
     import Part
 
     members = _members(part)
     if members is None:
         return [part]
     inside = {member.Name: member for child in members for member in solid_objects(child) if Part.getShape(member).Solids}
+    for member in list(inside.values()):
+        if member.isDerivedFrom("Part::Compound") and all(one.Name in inside and one.Visibility for one in member.Links):
+            del inside[member.Name]
     used = {used.Name for member in inside.values() for used in member.OutListRecursive}
     return [member for member in inside.values() if member.Visibility or member.Name not in used]
 

@@ -280,7 +280,7 @@ class MeshPanel:
             shapes.check_solid(shape)
             if what == "mesh":
                 self._meshed_shape = shapes.signature(shape)
-                work = job.Job(shape, options, what)
+                work = job.Job(shape, options, what, shapes.solid_labels(self.part))
                 self.process = Run(work, self._heard, self._show_time, self._finished)
             else:
                 self.process = self.live_session(options).ask(what, options, self._heard, self._show_time, self._finished)

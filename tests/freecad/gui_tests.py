@@ -1,12 +1,14 @@
 """Workbench, command and task panel in a real window; run by gui.sh."""
 
 import os
+import tempfile
 from unittest import mock
 
 import Fem
 import FemGui
 import FreeCAD
 import FreeCADGui
+import matplotlib.image
 import ObjectsFem
 import Part
 import stuck
@@ -375,6 +377,38 @@ class AxesOfFaces(GuiTest):
         self.press("Ok")
         self.assertEqual(list(self.panel.obj.Labels), [])
         self.assertEqual(self.panel.obj.MeshState, objects.OUTDATED)
+
+
+class ConvexFillets(GuiTest):
+    """FreeCAD draws them up to half a percent of the part's size off the labels' triangles."""
+
+    def grey(self):
+        """Pixels of the part's own colour in the 3D view."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "view.png")
+            FreeCADGui.activeDocument().activeView().saveImage(path, 640, 512, "Current")
+            pixels = matplotlib.image.imread(path)[:, :, :3]
+        return int(((pixels.min(axis=2) > 0.25) & (pixels.min(axis=2) > 0.97 * pixels.max(axis=2))).sum())
+
+    def test_the_labels_hide_the_part(self):
+        rounded = self.document.addObject("Part::Feature", "Rounded")
+        block = Part.makeBox(60, 40, 30)
+        rounded.Shape = block.makeFillet(9, block.Edges)
+        rounded.ViewObject.ShapeColor = (1.0, 1.0, 1.0)
+        self.document.recompute()
+        self.box.ViewObject.hide()
+        FreeCADGui.SendMsgToActiveView("ViewFit")
+        process_events(0.3)
+        panel = self.open_panel(rounded)
+        FreeCADGui.Selection.clearSelection()
+        process_events(0.3)
+        before = self.grey()
+        self.assertGreater(before, 10000)
+        panel.axes.preview.setChecked(True)
+        self.assertTrue(wait_until(lambda: not panel.process))
+        process_events(0.3)
+        picture("labels-of-fillets")
+        self.assertLess(self.grey(), 1e-4 * before)
 
 
 class InAContainer(GuiTest):

@@ -7,9 +7,9 @@ from PySide import QtCore
 from . import engine
 from .overlay import Overlay, depth, plain
 
-#: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the view's depth. FreeCAD draws a round face within
-#: 0.5 % of the part's size, so the triangles of the labels are up to twice that behind it.
-_FACES_FORWARD, _LINES_FORWARD = 1e-2, 1.01e-2
+#: In front of the part's own faces, and the borders of the charts in front of the labels: shares of the depth at which they are. FreeCAD draws a round face
+#: within 0.5 % of the part's size, so the triangles of the labels are up to twice that behind it, and a corner near the eye has half of the view's depth.
+_FACES_FORWARD, _LINES_FORWARD = 2e-2, 2.01e-2
 #: Between the part and the polycube beside it, in widths of the part.
 _GAP = 0.3
 

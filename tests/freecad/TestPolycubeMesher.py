@@ -53,6 +53,31 @@ class Order(FolderTest):
         self.assertIsInstance(caught.exception, ImportError)
         return str(caught.exception)
 
+    def test_whatever_a_stranger_does(self):
+        """Programs that say a version and then are no mesher: one line, and no wait without end."""
+        answers = '#!/bin/sh\n[ "$2" = --version ] && { echo 0.0.9; exit; }\n'
+        for number, does in enumerate(
+            (
+                "exit 0",
+                "printf 'a\\377\\376b\\n'; printf 'c\\377' >&2; exit 1",
+                'echo rubbish > "$2/result.npz"; exit 0',
+                'echo "{}" > "$2/error.json"; exit 1',
+                'echo "{" > "$2/error.json"; exit 1',
+            )
+        ):
+            with self.subTest(does=does):
+                self.preferences.SetString("Mesher", self.program("stranger{}".format(number), answers + does + "\n"))
+                with self.assertRaises(polycube.StageFailed) as caught:
+                    polycube.mesh(Part.makeBox(1, 1, 1))
+                self.assertNotIn("\n", str(caught.exception))
+
+    def test_one_that_was_removed(self):
+        path = self.program("here")
+        self.preferences.SetString("Mesher", path)
+        self.assertEqual(engine.find().command[0], path)
+        os.remove(path)
+        self.assertIn(path, self.none())
+
     def test_nothing_is_there(self):
         self.assertIn("no program polycube on PATH", self.none())
         with self.assertRaises(polycube.NoMesher):

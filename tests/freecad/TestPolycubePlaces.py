@@ -100,7 +100,7 @@ class Containers(PlacesTest):
         self.document.recompute()
         with self.assertRaises(polycube.InvalidInput) as caught:
             polycube.mesh(container)
-        self.assertIn("Solid1 and Solid2 overlap", str(caught.exception))
+        self.assertRegex(str(caught.exception), 'Solid1 "Box" and Solid2 "Box001" overlap')
         cut = self.add("Part::Cut", container, Base=first, Tool=second)
         first.Visibility = second.Visibility = False
         self.document.recompute()

@@ -25,8 +25,8 @@ class Packages(unittest.TestCase):
         self.assertEqual(set(lists["debian-12.txt"]) ^ set(lists["debian-13.txt"]), {"calculix-ccx", "clang-format", "clang-tidy"})
 
     def test_a_tree_of_an_unknown_system_is_refused(self):
-        for arguments in ([], ["debian-1"]):
-            run = subprocess.run(["sh", os.path.join(REPO, "resources", "polycube"), "test", "--on", *arguments], capture_output=True, text=True, timeout=60)
+        for arguments in (["--on"], ["--on", "debian-1"], ["--On", "debian-13"]):
+            run = subprocess.run(["sh", os.path.join(REPO, "resources", "polycube"), "test", *arguments], capture_output=True, text=True, timeout=60)
             self.assertNotEqual(run.returncode, 0)
             self.assertEqual(run.stdout, "")
             self.assertEqual(len(run.stderr.splitlines()), 1, run.stderr)

@@ -49,7 +49,12 @@ class Mesher:
 
 def find():
     """The Mesher to take: the module of this Python; what the preference names; the program on PATH. NoMesher says in one line what is missing."""
-    return _find(FreeCAD.ParamGet(PREFERENCES).GetString("Mesher", ""), os.environ.get("PATH", ""), os.environ.get("PYTHONPATH", ""))
+    where = FreeCAD.ParamGet(PREFERENCES).GetString("Mesher", ""), os.environ.get("PATH", ""), os.environ.get("PYTHONPATH", "")
+    mesher = _find(*where)
+    if not shutil.which(mesher.command[0]):  # it was removed meanwhile
+        _find.cache_clear()
+        mesher = _find(*where)
+    return mesher
 
 
 @lru_cache(maxsize=None)

@@ -15,7 +15,7 @@ import threading
 import time
 
 from . import engine, preferences, result
-from .errors import Cancelled, InvalidInput, StageFailed
+from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .job_folder import JobFolder
 
 # From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
@@ -104,6 +104,16 @@ def write_options(folder, options):
 
 def outcome(folder, what, status, last_words="", stage=""):
     """What a child left in a folder: the MeshResult or LabelResult, the number of cells, or one of the errors. `stage`: the last one that it spoke of."""
+    try:
+        return _left(folder, what, status, last_words, stage)
+    except PolycubeError:
+        raise
+    except Exception as error:  # a program that is another mesher, or none, may leave anything
+        reason = "{}: {}".format(type(error).__name__, error).splitlines()[0]
+        raise StageFailed("the mesher left nothing that can be read: {}".format(reason), stage or "start", []) from error
+
+
+def _left(folder, what, status, last_words, stage):
     if status == 0:
         return _LOADERS[what](folder)
     path = os.path.join(folder, "error.json")
@@ -139,6 +149,7 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
         stderr=subprocess.PIPE,
         env=job.environment(),
         text=True,
+        errors="replace",
     )
     watcher = Watcher(child, cancel, job)
     stderr, stdout = Drain(child.stderr), Lines(child.stdout)
@@ -200,9 +211,11 @@ class Lines(threading.Thread):
         self.start()
 
     def run(self):
-        for line in self._pipe:
-            self._queue.put(line)
-        self._queue.put(None)
+        try:
+            for line in self._pipe:
+                self._queue.put(line)
+        finally:
+            self._queue.put(None)
 
     def each(self, idle=None):
         """The lines as they come; `idle()` is called between them and while there is none."""

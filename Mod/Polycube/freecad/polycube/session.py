@@ -67,6 +67,7 @@ class Session:
             stderr=subprocess.PIPE,
             env=self._job.environment(),
             text=True,
+            errors="replace",
         )
         self._stderr, self._stdout = job.Drain(self._child.stderr), job.Lines(self._child.stdout)
 

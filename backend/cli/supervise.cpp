@@ -55,13 +55,13 @@ class SharedNote {
   StageNote* note_ = nullptr;
 };
 
-void say_cancelled() { std::fputs("polycube: cancelled\n", stderr); }
+void say(const char* why) { std::fprintf(stderr, "polycube: %s\n", why); }
 
 [[noreturn]] void be_child(const std::function<int(StageNote&)>& work, StageNote& note, pid_t parent, const std::string& folder) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits for the mesh of a parent that was killed
   if (getppid() != parent) _exit(kStopped);
   if (g_stops > 0) {
-    say_cancelled();
+    say("cancelled");
     _exit(kStopped);
   }
   // What ends the engine alone, such as its own limit of processor time, is not asked of the command.
@@ -132,11 +132,7 @@ int supervise(const std::function<int(StageNote&)>& work, const Supervision& sup
   for (const std::string& output : supervision.outputs) Draft::discard(output, child);
   if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
   if (killed || g_stops > 0) {
-    if (g_stops > 0) {
-      say_cancelled();
-    } else {
-      std::fputs("polycube: out of time\n", stderr);
-    }
+    say(g_stops > 0 ? "cancelled" : "out of time");
     return kStopped;
   }
   const std::string stage = note.get().get();

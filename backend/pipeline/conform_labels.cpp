@@ -180,10 +180,6 @@ class Skin {
   std::vector<std::pair<int, int>> vertices_;  ///< points and CAD vertices
 };
 
-}  // namespace
-
-namespace {
-
 /// Labels that no part of a face may have, as its solid sees them.
 using Barred = std::set<std::pair<int, int>>;
 

@@ -110,11 +110,11 @@ def selection_path(obj):
 
 def distinct(parts):
     """Document objects, each once, without those that stand in another of them."""
-    chosen = {part.Name: part for part in parts}
+    chosen = {(part.Document.Name, part.Name): part for part in parts}
 
     def is_inside(part):
         around = container_of(part)
-        return around is not None and (around.Name in chosen or is_inside(around))
+        return around is not None and ((around.Document.Name, around.Name) in chosen or is_inside(around))
 
     return [part for part in chosen.values() if not is_inside(part)]
 

@@ -55,25 +55,60 @@ struct Score {
   }
 };
 
-// Whether the cell's worst corner lies between two CAD edges at a narrow angle, and is as good as that lets it be.
-bool held_by_cad(const std::vector<Vec3>& points, const Hex& hex, const std::vector<Segment>& on_edges) {
-  int worst = 0;
-  for (int c = 1; c < 8; ++c) {
-    if (corner_scaled_jacobian(points, hex, c) < corner_scaled_jacobian(points, hex, worst)) worst = c;
+// What of the boundary can hold a cell's corner where it is.
+class CadHold {
+ public:
+  explicit CadHold(const Association& association) : on_edges_(association.segments) {
+    for (Segment& s : on_edges_) std::sort(s.begin(), s.end());
+    std::sort(on_edges_.begin(), on_edges_.end());
+    quads_.reserve(association.quads.size());
+    for (const Quad& q : association.quads) quads_.push_back(sorted(q));
+    std::sort(quads_.begin(), quads_.end());
   }
-  const double value = corner_scaled_jacobian(points, hex, worst);
-  const auto& next = kCornerNeighbours[worst];
-  const auto on_edge = [&](int k) {
-    return std::binary_search(on_edges.begin(), on_edges.end(), Segment{std::min(hex[worst], hex[next[k]]), std::max(hex[worst], hex[next[k]])});
-  };
-  for (int k = 0; k < 3; ++k) {
-    const int l = (k + 1) % 3;
-    if (!on_edge(k) || !on_edge(l)) continue;
-    const Vec3 a = (points[hex[next[k]]] - points[hex[worst]]).normalized(), b = (points[hex[next[l]]] - points[hex[worst]]).normalized();
-    if (a.dot(b) > kFitTuning.narrow && value >= kFitTuning.nearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)))) return true;
+
+  // Whether the cell's worst corner lies between two CAD edges, or along a CAD edge between its two faces, at a narrow angle, and is as good as that lets it
+  // be.
+  bool holds(const std::vector<Vec3>& points, const Hex& hex) const {
+    int worst = 0;
+    for (int c = 1; c < 8; ++c) {
+      if (corner_scaled_jacobian(points, hex, c) < corner_scaled_jacobian(points, hex, worst)) worst = c;
+    }
+    const double value = corner_scaled_jacobian(points, hex, worst);
+    const auto& next = kCornerNeighbours[worst];
+    const auto direction = [&](int k) { return Vec3((points[hex[next[k]]] - points[hex[worst]]).normalized()); };
+    const auto narrow = [&](const Vec3& a, const Vec3& b) {
+      return a.dot(b) > kFitTuning.narrow && value >= kFitTuning.nearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)));
+    };
+    for (int k = 0; k < 3; ++k) {
+      if (!on_edge(hex[worst], hex[next[k]])) continue;
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      if (on_edge(hex[worst], hex[next[l]]) && narrow(direction(k), direction(l))) return true;
+      if (!on_boundary(hex, worst, next[k], next[l]) || !on_boundary(hex, worst, next[k], next[m])) continue;
+      const Vec3 along = direction(k);
+      const auto across = [&](int axis) { return Vec3((direction(axis) - along * along.dot(direction(axis))).normalized()); };
+      if (narrow(across(l), across(m))) return true;
+    }
+    return false;
   }
-  return false;
-}
+
+ private:
+  static Quad sorted(Quad q) {
+    std::sort(q.begin(), q.end());
+    return q;
+  }
+  bool on_edge(int a, int b) const { return std::binary_search(on_edges_.begin(), on_edges_.end(), Segment{std::min(a, b), std::max(a, b)}); }
+  // Whether the cell's side that has the three corners lies on the boundary.
+  bool on_boundary(const Hex& hex, int a, int b, int c) const {
+    for (const auto& side : kHexFaces) {
+      const auto has = [&](int corner) { return std::find(side.begin(), side.end(), corner) != side.end(); };
+      if (has(a) && has(b) && has(c)) return std::binary_search(quads_.begin(), quads_.end(), sorted({hex[side[0]], hex[side[1]], hex[side[2]], hex[side[3]]}));
+    }
+    return false;
+  }
+
+  std::vector<Segment> on_edges_;  // sorted, as the quads
+  std::vector<Quad> quads_;
+};
 
 // How far untangling has come.
 struct Untangling {
@@ -522,13 +557,11 @@ FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candi
 }
 
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association) {
-  std::vector<Segment> on_edges = association.segments;
-  for (Segment& s : on_edges) std::sort(s.begin(), s.end());
-  std::sort(on_edges.begin(), on_edges.end());
+  const CadHold cad(association);
   double least = 1;
   for (const Hex& hex : mesh.hexes) {
     const double value = scaled_jacobian(mesh.points, hex);
-    if (value < least && !held_by_cad(mesh.points, hex, on_edges)) least = value;
+    if (value < least && !cad.holds(mesh.points, hex)) least = value;
   }
   return least;
 }

@@ -50,8 +50,8 @@ FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candi
 /// The one of them that fit_best would fit to the end first; it alone is tried where it comes out good. The meshes are not to be used afterwards.
 std::size_t most_promising(const CadModel& model, const std::vector<FitCandidate>& candidates, const FitOptions& options, const Monitor& monitor);
 
-/// The smallest scaled Jacobian but for cells that a narrow angle between two CAD edges holds where they are: no fit and no other grid
-/// makes those better.
+/// The smallest scaled Jacobian but for cells that a narrow angle of the CAD holds where they are, between two edges or, along an edge, between its two
+/// faces: no fit and no other grid makes those better.
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association);
 
 }  // namespace polycube

@@ -21,7 +21,7 @@ struct FitTuning {
   double poor = 0.3;
   /// Cosine: so may any cell whose edges along one axis are further from their mean than this. Guess.
   double twisted = 0.85;
-  /// Cosine of the angle of CAD edges that hold a corner: from 60 degrees on other cells would do better. Guess.
+  /// Cosine of the angle of CAD edges or faces that hold a corner: from 60 degrees on other cells would do better. Guess.
   double narrow = 0.5;
   /// Of what such an angle allows: a corner as good as this is as good as can be. Guess.
   double nearly = 0.95;

@@ -161,5 +161,23 @@ TEST(Fit, CellsInNarrowCornersOfTheCadAreHeld) {
   EXPECT_NEAR(free_scaled_jacobian(mesh, association), narrow, 1e-12);
 }
 
+// So does one that fills a narrow angle between the two CAD faces of an edge, as far from the ends of the edge as may be.
+TEST(Fit, CellsBetweenCadFacesAtANarrowAngleAreHeld) {
+  HexMesh mesh{{}, {{0, 1, 2, 3, 4, 5, 6, 7}}};
+  for (const double z : {0, 1}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.1, 0.12), std::pair(0.98, 0.2)}) mesh.points.emplace_back(x, y, z);
+  }
+  const double narrow = std::sin(std::atan2(0.2, 0.98));
+  Association association;
+  association.segments.push_back({4, 0});
+  association.quads = {{0, 1, 5, 4}, {3, 0, 4, 7}};
+  EXPECT_EQ(free_scaled_jacobian(mesh, association), 1);
+  association.quads.pop_back();  // material goes on beyond the cell
+  EXPECT_NEAR(free_scaled_jacobian(mesh, association), narrow, 1e-12);
+  association.quads.push_back({3, 0, 4, 7});
+  association.segments.clear();  // both quads are of one smooth face
+  EXPECT_NEAR(free_scaled_jacobian(mesh, association), narrow, 1e-12);
+}
+
 }  // namespace
 }  // namespace polycube

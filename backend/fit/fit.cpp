@@ -1,9 +1,11 @@
 #include "fit/fit.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 #include "core/error.h"
@@ -58,8 +60,11 @@ struct Score {
 // What of the boundary can hold a cell's corner where it is.
 class CadHold {
  public:
-  explicit CadHold(const Association& association) : on_edges_(association.segments) {
-    for (Segment& s : on_edges_) std::sort(s.begin(), s.end());
+  explicit CadHold(const Association& association) : point_cad_(association.point_cad) {
+    for (std::size_t i = 0; i < association.segments.size(); ++i) {
+      const auto [a, b] = association.segments[i];
+      on_edges_.emplace_back(Segment{std::min(a, b), std::max(a, b)}, association.segment_edge[i]);
+    }
     std::sort(on_edges_.begin(), on_edges_.end());
     quads_.reserve(association.quads.size());
     for (const Quad& q : association.quads) quads_.push_back(sorted(q));
@@ -76,19 +81,38 @@ class CadHold {
     const double value = corner_scaled_jacobian(points, hex, worst);
     const auto& next = kCornerNeighbours[worst];
     const auto direction = [&](int k) { return Vec3((points[hex[next[k]]] - points[hex[worst]]).normalized()); };
-    const auto narrow = [&](const Vec3& a, const Vec3& b) {
-      return a.dot(b) > kFitTuning.narrow && value >= kFitTuning.nearly * std::sqrt(std::max(0.0, 1 - a.dot(b) * a.dot(b)));
+    const auto held_between = [&](const Vec3& a, const Vec3& b) {
+      const double cosine = a.dot(b);
+      return cosine > kFitTuning.narrow && value >= kFitTuning.nearly * std::sqrt(std::max(0.0, 1 - cosine * cosine));
     };
     for (int k = 0; k < 3; ++k) {
-      if (!on_edge(hex[worst], hex[next[k]])) continue;
       const int l = (k + 1) % 3, m = (k + 2) % 3;
-      if (on_edge(hex[worst], hex[next[l]]) && narrow(direction(k), direction(l))) return true;
-      if (!on_boundary(hex, worst, next[k], next[l]) || !on_boundary(hex, worst, next[k], next[m])) continue;
+      if (edge_at(hex[worst], hex[next[k]]) == 0) continue;
+      if (edge_at(hex[worst], hex[next[l]]) != 0 && held_between(direction(k), direction(l))) return true;
+      if (!fills_edge(hex, worst, k)) continue;
       const Vec3 along = direction(k);
       const auto across = [&](int axis) { return Vec3((direction(axis) - along * along.dot(direction(axis))).normalized()); };
-      if (narrow(across(l), across(m))) return true;
+      if (held_between(across(l), across(m))) return true;
     }
     return false;
+  }
+
+  // What the angles of the CAD that the cell's corners fill let its scaled Jacobian be, 1 where they are not narrow.
+  double bound(const CadModel& model, const Hex& hex) const {
+    double least = 1;
+    const auto bounded_by = [&](double angle) {
+      if (std::cos(angle) > kFitTuning.narrow) least = std::min(least, std::sin(angle));
+    };
+    for (int c = 0; c < 8; ++c) {
+      if (point_cad_[hex[c]].dim > 1) continue;
+      for (int k = 0; k < 3; ++k) {
+        const int edge = edge_at(hex[c], hex[kCornerNeighbours[c][k]]), other = edge_at(hex[c], hex[kCornerNeighbours[c][(k + 1) % 3]]);
+        if (edge == 0) continue;
+        if (other != 0) bounded_by(angle_between(model, point_cad_[hex[c]], edge, other));
+        if (fills_edge(hex, c, k)) bounded_by(model.edge(edge).max_angle);
+      }
+    }
+    return least;
   }
 
  private:
@@ -96,7 +120,27 @@ class CadHold {
     std::sort(q.begin(), q.end());
     return q;
   }
-  bool on_edge(int a, int b) const { return std::binary_search(on_edges_.begin(), on_edges_.end(), Segment{std::min(a, b), std::max(a, b)}); }
+  // The CAD edge that a mesh edge is a piece of, or 0.
+  int edge_at(int a, int b) const {
+    const std::pair key(Segment{std::min(a, b), std::max(a, b)}, 0);
+    const auto found = std::lower_bound(on_edges_.begin(), on_edges_.end(), key);
+    return found != on_edges_.end() && found->first == key.first ? found->second : 0;
+  }
+  // Between two CAD edges where they leave a vertex; pi where that cannot be told, elsewhere than at one or of an edge that comes back to it.
+  static double angle_between(const CadModel& model, CadRef at, int edge, int other) {
+    if (at.dim != 0 || model.edge(edge).closed || model.edge(other).closed) return std::numbers::pi;
+    const auto leaving = [&](int e) {
+      const std::array<double, 2> range = model.edge_range(e);
+      return model.edge(e).vertices[0] == at.id ? model.edge_tangent(e, range[0]) : Vec3(-model.edge_tangent(e, range[1]));
+    };
+    const Vec3 a = leaving(edge), b = leaving(other);
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  // Whether both sides of the cell that meet in an edge of it lie on the boundary: it fills all of the angle there.
+  bool fills_edge(const Hex& hex, int corner, int k) const {
+    const auto& next = kCornerNeighbours[corner];
+    return on_boundary(hex, corner, next[k], next[(k + 1) % 3]) && on_boundary(hex, corner, next[k], next[(k + 2) % 3]);
+  }
   // Whether the cell's side that has the three corners lies on the boundary.
   bool on_boundary(const Hex& hex, int a, int b, int c) const {
     for (const auto& side : kHexFaces) {
@@ -106,8 +150,9 @@ class CadHold {
     return false;
   }
 
-  std::vector<Segment> on_edges_;  // sorted, as the quads
-  std::vector<Quad> quads_;
+  const std::vector<CadRef>& point_cad_;
+  std::vector<std::pair<Segment, int>> on_edges_;  // sorted, each with its CAD edge
+  std::vector<Quad> quads_;                        // sorted
 };
 
 // How far untangling has come.
@@ -554,6 +599,16 @@ FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candi
   }
   monitor.progress("fit", 1);
   return choice;
+}
+
+bool at_cad_bound(const CadModel& model, const HexMesh& mesh, const Association& association) {
+  const CadHold cad(association);
+  double least = 1, bound = 1;
+  for (const Hex& hex : mesh.hexes) {
+    least = std::min(least, scaled_jacobian(mesh.points, hex));
+    bound = std::min(bound, cad.bound(model, hex));
+  }
+  return bound < 1 && least >= kFitTuning.nearly * bound;
 }
 
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association) {

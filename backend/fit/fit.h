@@ -54,4 +54,8 @@ std::size_t most_promising(const CadModel& model, const std::vector<FitCandidate
 /// faces: no fit and no other grid makes those better.
 double free_scaled_jacobian(const HexMesh& mesh, const Association& association);
 
+/// Whether the smallest scaled Jacobian is what the narrowest angle of the CAD that a cell fills allows, between two edges at a vertex or between the two faces
+/// of an edge: that of no mesh that has those edges is larger.
+bool at_cad_bound(const CadModel& model, const HexMesh& mesh, const Association& association);
+
 }  // namespace polycube

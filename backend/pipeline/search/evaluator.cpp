@@ -167,6 +167,7 @@ class Evaluator::Work {
         outcome.kind = Outcome::Kind::kMesh;
         outcome.score = score_of(draft.fitted.min_scaled_jacobian, draft.padded);
         outcome.score->least = summarise(draft.padded.mesh).min_scaled_jacobian;
+        outcome.score->at_bound = at_cad_bound(model_, draft.padded.mesh, draft.padded.association);
       } catch (const StageFailed& e) {
         outcome.failure = Failure{e, {}};
       }
@@ -443,7 +444,8 @@ class Evaluator::Work {
     if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
     const std::vector<FitCandidate> candidates = candidates_of(choices);
     const auto good = [&](std::size_t i, const FitReport& r) {
-      return r.inverted == 0 && (good_cells(score_of(r.min_scaled_jacobian, choices[i])) || own_.hurry_());
+      return r.inverted == 0 &&
+             (good_cells(score_of(r.min_scaled_jacobian, choices[i])) || own_.hurry_() || at_cad_bound(model_, choices[i].mesh, choices[i].association));
     };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options(), fits_left_, good, monitor_); });
     const std::size_t chosen = best.index;

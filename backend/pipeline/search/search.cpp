@@ -107,7 +107,7 @@ bool good_cells(const Score& score) { return score.least >= kSearchTuning.good_s
 
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {
   const bool patient = fits_done >= budget.patience && score.least >= kSearchTuning.good_scaled_jacobian / 2;
-  return score.complete() && (patient || good_cells(score));
+  return score.complete() && (patient || score.at_bound || good_cells(score));
 }
 
 Budget budget_of(const std::string& effort) {

@@ -16,6 +16,7 @@ struct Score {
   int lost_edges = 0, lost_vertices = 0;  ///< of the CAD
   double least = 0;                       ///< scaled Jacobian
   double free_least = 0;                  ///< but for cells that a narrow angle of the CAD holds where they are: no plan makes those better
+  bool at_bound = false;                  ///< `least` is what an angle of the CAD allows: no plan comes to more
   bool complete() const { return lost_edges == 0 && lost_vertices == 0; }
 };
 

@@ -154,11 +154,44 @@ TEST(Fit, CellsInNarrowCornersOfTheCadAreHeld) {
   }
   Association association;
   for (const auto& [c, d] : kHexEdges) association.segments.push_back({c, d});
+  association.segment_edge.assign(association.segments.size(), 7);
   const double narrow = std::sin(std::atan2(0.2, 0.98));
   EXPECT_NEAR(summarise(mesh).min_scaled_jacobian, narrow, 1e-12);
   EXPECT_EQ(free_scaled_jacobian(mesh, association), 1);  // the only cell is held
   association.segments.clear();
   EXPECT_NEAR(free_scaled_jacobian(mesh, association), narrow, 1e-12);
+}
+
+// Of a prism over a quadrilateral with a corner of 12.5 degrees one cell is the best there is; a cell that leaves a part of the corner empty is not.
+TEST(Fit, AnAngleOfTheCadBoundsTheWorstCell) {
+  const shapes::Prism above{2, {{0, 0}, {0.9, 0.2}, {1, 0.15}, {2, 0.15}, {2, 2}, {-1, 2}, {-1, 0}}, 0, 1};
+  const CadModel model = CadModel::from_brep(shapes::machined_box(1, {above}));
+  HexMesh mesh{{}, {{0, 1, 2, 3, 4, 5, 6, 7}}};
+  for (const double z : {0, 1}) {
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(1.0, 0.15), std::pair(0.9, 0.2)}) mesh.points.emplace_back(x, y, z);
+  }
+  Association association;
+  for (const Vec3& p : mesh.points) {
+    for (const int v : model.vertices()) {
+      if ((model.vertex(v) - p).norm() < 1e-9) association.point_cad.push_back({0, v});
+    }
+  }
+  ASSERT_EQ(association.point_cad.size(), 8u);
+  for (const auto& [c, d] : kHexEdges) {
+    const std::array<int, 2> ends{association.point_cad[c].id, association.point_cad[d].id};
+    for (const int e : model.edges()) {
+      const std::array<int, 2> of = model.edge(e).vertices;
+      if (of != ends && of != std::array{ends[1], ends[0]}) continue;
+      association.segments.push_back({c, d});
+      association.segment_edge.push_back(e);
+    }
+  }
+  ASSERT_EQ(association.segments.size(), 12u);
+  EXPECT_NEAR(summarise(mesh).min_scaled_jacobian, std::sin(std::atan2(0.2, 0.9)), 1e-9);
+  EXPECT_TRUE(at_cad_bound(model, mesh, association));
+  mesh.points[3] = mesh.points[7] = {0.95, 0.12, 0};
+  mesh.points[7][2] = 1;
+  EXPECT_FALSE(at_cad_bound(model, mesh, association));
 }
 
 // So does one that fills a narrow angle between the two CAD faces of an edge, as far from the ends of the edge as may be.
@@ -170,6 +203,7 @@ TEST(Fit, CellsBetweenCadFacesAtANarrowAngleAreHeld) {
   const double narrow = std::sin(std::atan2(0.2, 0.98));
   Association association;
   association.segments.push_back({4, 0});
+  association.segment_edge = {7};
   association.quads = {{0, 1, 5, 4}, {3, 0, 4, 7}};
   EXPECT_EQ(free_scaled_jacobian(mesh, association), 1);
   association.quads.pop_back();  // material goes on beyond the cell

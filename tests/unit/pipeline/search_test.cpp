@@ -160,6 +160,10 @@ TEST(Search, PatienceWithPoorCellsEnds) {
   EXPECT_FALSE(good_enough(poor, 0, budget));
   EXPECT_TRUE(good_enough(poor, budget.patience, budget));
   EXPECT_TRUE(good_enough(narrow, 0, budget));  // the CAD holds its worst cell
+  const Score at_bound{.least = 0.06, .free_least = 0.11, .at_bound = true},
+      lost_at_bound{.lost_edges = 1, .least = 0.06, .free_least = 0.11, .at_bound = true};
+  EXPECT_TRUE(good_enough(at_bound, 0, budget));  // no plan makes the worst cell better
+  EXPECT_FALSE(good_enough(lost_at_bound, 0, budget));
   EXPECT_FALSE(good_enough(lost, 100, budget));
 }
 

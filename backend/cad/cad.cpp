@@ -69,10 +69,11 @@ double CadModel::diagonal() const { return shape_->box.diagonal().norm(); }
 double CadModel::volume() const { return shape_->volume; }
 
 int CadModel::euler_characteristic() const {
-  // A face cut open along its seams is a disk with one hole for each wire but the first.
+  // A face cut open along its seams is a disk with one hole for each part of its border but the first: a hole that touches the rest of the border leaves no
+  // ring.
   int result = static_cast<int>(vertices().size() + faces().size());
   for (const int e : edges()) result -= edge(e).degenerate ? 0 : 1;
-  for (const int f : faces()) result -= std::max(0, shape_->face(f).wires - 1);
+  for (const int f : faces()) result -= std::max(0, shape_->face(f).border_parts - 1);
   return result;
 }
 

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "cad/shape.h"
 #include "cad/tuning.h"
@@ -118,9 +119,19 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
   // BRep_Tool::IsClosed is no test for a seam: a Boolean operation may leave both curves on an edge that bounds the face on one side only.
   std::map<int, int> occurrences;
   for (TopExp_Explorer it(face, TopAbs_EDGE); it.More(); it.Next()) ++occurrences[maps.edge(it.Current())];
+  TopTools_IndexedMapOfShape own;
+  TopExp::MapShapes(face, TopAbs_VERTEX, own);
+  UnionFind joined(static_cast<std::size_t>(own.Extent()));  // vertices of one wire, and so wires that touch in a vertex
+  std::set<int> on_border;
   for (TopExp_Explorer wires(face, TopAbs_WIRE); wires.More(); wires.Next()) {
     const TopoDS_Wire wire = TopoDS::Wire(wires.Current());
-    ++g.wires;
+    int first_vertex = -1;
+    for (TopExp_Explorer it(wire, TopAbs_VERTEX); it.More(); it.Next()) {
+      const int vertex = own.FindIndex(it.Current()) - 1;
+      if (first_vertex < 0) first_vertex = vertex;
+      joined.unite(first_vertex, vertex);
+      on_border.insert(vertex);
+    }
     std::vector<TopoDS_Edge> chain, plain;
     for (BRepTools_WireExplorer it(wire, face); it.More(); it.Next()) chain.push_back(it.Current());
     for (TopExp_Explorer it(wire, TopAbs_EDGE); it.More(); it.Next()) plain.push_back(TopoDS::Edge(it.Current()));
@@ -153,6 +164,7 @@ void read_borders(int face_id, FaceGeometry& g, std::vector<EdgeGeometry>& edges
     }
     g.border.insert(g.border.end(), drawn.begin(), drawn.end());
   }
+  for (const int vertex : on_border) g.border_parts += joined.find(vertex) == vertex;
   std::sort(g.border_edges.begin(), g.border_edges.end());
   g.border_edges.erase(std::unique(g.border_edges.begin(), g.border_edges.end()), g.border_edges.end());
   for (const BorderSegment& segment : g.border) {

@@ -71,7 +71,7 @@ struct FaceGeometry {
   Vec2 lower, upper;                         ///< natural bounds of the parameters
   std::array<bool, 2> closed{false, false};  ///< both bounds are the same curve in space although the surface is not periodic
   Eigen::AlignedBox2d domain;                ///< box of the trimmed domain
-  int wires = 0;
+  int border_parts = 0;                      ///< of the border that hang together: wires that touch in a vertex are one
   std::vector<BorderSegment> border;
   BorderGrid border_grid;
   std::vector<int> border_edges;  ///< edges that bound the face in space: no seams, no degenerate ones

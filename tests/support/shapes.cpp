@@ -300,6 +300,14 @@ std::string oblique_bore() {
   return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {20, 14, 12}), BRepPrimAPI_MakeCylinder(axis, 1.8, 40).Shape()).Shape()));
 }
 
+std::string pocket_beside_seam() {
+  BRepBuilderAPI_MakePolygon triangle;
+  for (const gp_Pnt& corner : {gp_Pnt(6, 0, 15), gp_Pnt(6, 4, 12), gp_Pnt(6, 4, 18)}) triangle.Add(corner);
+  triangle.Close();
+  const TopoDS_Shape cutter = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(triangle.Wire()).Face(), gp_Vec(10, 0, 0)).Shape();
+  return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 30).Shape(), cutter).Shape()));
+}
+
 std::string drilled_block() {
   const auto half = [](double from, double to) {
     const TopoDS_Shape hole = BRepPrimAPI_MakeCylinder(gp_Ax2({10, 10, 8}, {0, 0, 1}), 1.2, 20).Shape();

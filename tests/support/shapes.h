@@ -41,6 +41,7 @@ std::string ribbed_cup(double radius);  ///< a rib as thin as the wall across it
 
 std::string oblique_bore();  ///< box of 20 x 14 x 12, a bore 20 degrees off Z comes out of its side x = 20 and leaves a wedge there
 std::string box_with_square(double x, double y, double z, double from, double to);  ///< a square from (from, from) to (to, to) drawn on its top
+std::string pocket_beside_seam();  ///< cylinder of radius 10 and height 30 about Z; the border of a triangular pocket touches its seam in a vertex
 std::string drilled_block();  ///< 20 x 20 x 16, a hole of radius 1.2 with a drill's tip from above; cut in two at y = 10 and put together: its faces are halves
 
 /// A cutter: a polygon across one axis, its corners by the two axes that follow (of y: z and x), drawn out along it.

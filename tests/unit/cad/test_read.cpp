@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -49,6 +50,9 @@ TEST(Read, EulerCharacteristic) {
   EXPECT_EQ(model(shapes::torus(3, 1)).euler_characteristic(), 0);
   EXPECT_EQ(model(shapes::plate_with_hole(10, 10, 2, 2)).euler_characteristic(), 0);
   EXPECT_EQ(model(shapes::hollow_box(10)).euler_characteristic(), 4);
+  const CadModel pocket = model(shapes::pocket_beside_seam());  // two wires of a face touch: the vertex cuts the seam in two
+  EXPECT_EQ(std::count_if(pocket.edges().begin(), pocket.edges().end(), [&](int e) { return pocket.edge(e).seam; }), 2);
+  EXPECT_EQ(pocket.euler_characteristic(), 2);
 }
 
 TEST(Read, DescribesSurfaces) {

@@ -30,6 +30,7 @@ bool is_faulty(const CadModel& model, const HexMesh& mesh, const Hex& hex) {
 void gate(const CadModel& model, const PaddedMesh& padded, int threads, const Monitor& monitor) {
   const QualitySummary q = summarise(padded.mesh);
   if (padded.mesh.hexes.empty() || q.inverted > 0 || !(q.min_scaled_jacobian > 0)) throw StageFailed("fit", "cells without positive Jacobian");
+  if (q.min_scaled_jacobian < kPipelineTuning.flattest) throw StageFailed("fit", "cells stay flat");
   // CAD vertices that all but coincide cannot each have a node of its own.
   for (const Hex& h : padded.mesh.hexes) {
     const auto [c, d] = edge_without_length(model, padded.mesh, h);

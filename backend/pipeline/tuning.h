@@ -92,10 +92,13 @@ struct PipelineTuning {
   /// Flipped tets that the blocks bear. Guess.
   int few_flips = 50;
 
+  /// Scaled Jacobian below which a mesh is none. Theory: such cells are turned over by rounding, on the way back to the part's place and in the decimals of a file.
+  double flattest = 1e-5;
+
   POLYCUBE_ENTRIES(slack, share_slack, widest_aspect, thinnest, smallest, most_rounds, circle_slack, small_circle, per_small_circle, fewest_round, most_turns,
                    turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, on_plane, size_rounding, shortest_edge, zigzag,
                    neighbour_rounds, count_miss, count_power, count_reach, count_rounds, much_of_asked, much_of_all, finishing, hurry, posed_size, grid,
-                   pose_samples, frames, tie, realise_rounds, few_folds, opposite, mapped, few_flips)
+                   pose_samples, frames, tie, realise_rounds, few_folds, opposite, mapped, few_flips, flattest)
 };
 
 inline constexpr const PipelineTuning& kPipelineTuning = tuning_in_force<PipelineTuning>;

@@ -100,7 +100,10 @@ def add_edges(scene, shape, lost, diagonal):
     for number, edge in enumerate(shape.Edges, 1):
         if edge.Degenerated:
             continue
-        points = np.array([tuple(p) for p in edge.discretize(max(2, min(200, int(120 * edge.Length / diagonal) + 2)))])
+        try:
+            points = np.array([tuple(p) for p in edge.discretize(max(2, min(200, int(120 * edge.Length / diagonal) + 2)))])
+        except Part.OCCError:  # shorter than OpenCASCADE's tolerance: Boolean operations leave such edges
+            continue
         colour = RED if number in lost else INK
         scene.lines += [points[k:k + 2] for k in range(len(points) - 1)]
         scene.line_colours += [colour] * (len(points) - 1)

@@ -288,7 +288,27 @@ class Picture(FolderTest):
         x = np.arange(4)
         points = np.stack(np.meshgrid(x, x, x, indexing="ij"), axis=-1).reshape(-1, 3)
 
-        def cell(i, j, k):
+        def test_an_edge_too_short_to_draw_is_left_out_of_the_picture(self):
+        class Edge:
+            Degenerated = False
+            Length = 2e-8
+
+            def __init__(self, points):
+                self.points = points
+
+            def discretize(self, _):
+                if not self.points:
+                    raise picture.Part.OCCError("Discretization of edge failed")
+                return self.points
+
+        class Shape:
+            Edges = [Edge([]), Edge([(0, 0, 0), (1, 0, 0)])]
+
+        scene = picture.Scene()
+        picture.add_edges(scene, Shape, set(), 1.0)
+        self.assertEqual(len(scene.lines), 1)
+
+    def cell(i, j, k):
             return [16 * a + 4 * b + c for a, b, c in ((i, j, k), (i + 1, j, k), (i + 1, j + 1, k), (i, j + 1, k), (i, j, k + 1), (i + 1, j, k + 1), (i + 1, j + 1, k + 1), (i, j + 1, k + 1))]
 
         places = [(i, j, k) for i in range(3) for j in range(3) for k in range(3)]

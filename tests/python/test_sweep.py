@@ -304,7 +304,7 @@ class Picture(FolderTest):
         class Shape:
             Edges = [Edge([]), Edge([(0, 0, 0), (1, 0, 0)])]
 
-        scene = picture.Scene()
+        scene = picture.Scene(1.0, False)
         picture.add_edges(scene, Shape, set(), 1.0)
         self.assertEqual(len(scene.lines), 1)
 

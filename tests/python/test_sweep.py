@@ -283,12 +283,7 @@ class Answers(SweepTest):
 
 
 class Picture(FolderTest):
-    def test_bad_cells(self):
-        """Of 3 x 3 x 3 cells that in the middle and one at the boundary are bad: a dot inside, one red quad for each side outside."""
-        x = np.arange(4)
-        points = np.stack(np.meshgrid(x, x, x, indexing="ij"), axis=-1).reshape(-1, 3)
-
-        def test_an_edge_too_short_to_draw_is_left_out_of_the_picture(self):
+    def test_an_edge_too_short_to_draw_is_left_out_of_the_picture(self):
         class Edge:
             Degenerated = False
             Length = 2e-8
@@ -308,7 +303,12 @@ class Picture(FolderTest):
         picture.add_edges(scene, Shape, set(), 1.0)
         self.assertEqual(len(scene.lines), 1)
 
-    def cell(i, j, k):
+    def test_bad_cells(self):
+        """Of 3 x 3 x 3 cells that in the middle and one at the boundary are bad: a dot inside, one red quad for each side outside."""
+        x = np.arange(4)
+        points = np.stack(np.meshgrid(x, x, x, indexing="ij"), axis=-1).reshape(-1, 3)
+
+        def cell(i, j, k):
             return [16 * a + 4 * b + c for a, b, c in ((i, j, k), (i + 1, j, k), (i + 1, j + 1, k), (i, j + 1, k), (i, j, k + 1), (i + 1, j, k + 1), (i + 1, j + 1, k + 1), (i, j + 1, k + 1))]
 
         places = [(i, j, k) for i in range(3) for j in range(3) for k in range(3)]

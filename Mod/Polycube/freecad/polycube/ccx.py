@@ -5,7 +5,9 @@ import shutil
 
 import FreeCAD
 
-MISSING = "CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)"
+from .words import noop, tr
+
+MISSING = noop("CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)")
 
 
 def find():
@@ -14,7 +16,7 @@ def find():
     if named:
         found = shutil.which(named)
         if not found:
-            raise RuntimeError("POLYCUBE_CCX names no program: " + named)
+            raise RuntimeError(tr("POLYCUBE_CCX names no program: {}").format(named))
         return found
     preferences = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx")
     preferred = None if preferences.GetBool("UseStandardCcxLocation", True) else preferences.GetString("ccxBinaryPath", "")

@@ -1,10 +1,11 @@
 """The shape of a document object, or of several: where it stands, has it solids, what are its entities called, and is it still the one that was meshed?"""
 
 from .errors import InvalidInput
+from .words import noop, tr
 
 RELATIVE_TOLERANCE = 1e-7
 #: what is wrong with a seam
-SEAM = "a seam, where a round face closes: the mesh has nodes there by chance only"
+SEAM = noop("a seam, where a round face closes: the mesh has nodes there by chance only")
 
 
 def shape_of(thing, beside=None):
@@ -17,16 +18,16 @@ def shape_of(thing, beside=None):
 
     if isinstance(thing, (list, tuple)):
         if not thing:
-            raise InvalidInput("the list of parts is empty")
+            raise InvalidInput(tr("the list of parts is empty"))
         found = [shape_of(one, beside) for one in thing]
         return found[0] if len(found) == 1 else Part.makeCompound(found)
     if not hasattr(thing, "Document"):
         if not isinstance(thing, Part.Shape):
-            raise InvalidInput("{} has no shape".format(type(thing).__name__))
+            raise InvalidInput(tr("{} has no shape").format(type(thing).__name__))
         return thing
     inside = solid_objects(thing)
     if not inside:
-        raise InvalidInput("{} has no solid inside".format(thing.Label))
+        raise InvalidInput(tr("{} has no solid inside").format(thing.Label))
     found = [_standing_shape(part, beside) for part in inside]
     return found[0] if len(found) == 1 else Part.makeCompound(found)
 
@@ -68,7 +69,7 @@ def _standing_shape(part, beside):
         return part.Shape
     shape = Part.getShape(part)
     if shape.isNull() and not hasattr(part, "Shape"):
-        raise InvalidInput("{} has no shape".format(part.Label))
+        raise InvalidInput(tr("{} has no shape").format(part.Label))
     if not shape.isNull():
         shape.Placement = placement.multiply(shape.Placement)
     return shape
@@ -251,15 +252,15 @@ def _elements(obj):
 def check_solid(shape):
     """Raises InvalidInput unless the shape has valid solids with a volume, or faces only, which the engine sews. It checks again and more closely."""
     if shape.isNull() or not shape.Faces:
-        raise InvalidInput("the shape is empty")
+        raise InvalidInput(tr("the shape is empty"))
     if not shape.Solids:
         return
     for number, solid in enumerate(shape.Solids, 1):
-        name = "the solid" if len(shape.Solids) == 1 else "Solid{}".format(number)
+        name = tr("the solid") if len(shape.Solids) == 1 else "Solid{}".format(number)
         if not solid.isValid():
-            raise InvalidInput("{} is not valid; Part > Check geometry shows why".format(name))
+            raise InvalidInput(tr("{} is not valid; Part > Check geometry shows why").format(name))
         if not solid.Volume > 1e-12 * solid.BoundBox.DiagonalLength**3:
-            raise InvalidInput("{} has no volume".format(name))
+            raise InvalidInput(tr("{} has no volume").format(name))
 
 
 def signature(shape):

@@ -1324,6 +1324,10 @@
       <translation>der Vernetzer endete unerwartet (Status {}): {}</translation>
     </message>
     <message>
+      <source>what {} shows is gone</source>
+      <translation>was {} zeigt, ist weg</translation>
+    </message>
+    <message>
       <source>the mesh does not capture {}</source>
       <translation>das Netz erfasst {} nicht</translation>
     </message>

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import FreeCAD
 
-from . import shapes
+from . import likeness, shapes
 from .errors import InvalidInput
 from .words import tr
 
@@ -169,7 +169,7 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 def compound_of(parts, analysis=None):
     """A new Part::Compound of document objects, which stands where they stand and follows them. Raises InvalidInput where no compound can.
 
-    Of objects in one App::Part it is in there too; of others in containers it has links, which follow these. `analysis`: that the mesh of it is to be in.
+    Of objects in one App::Part it is in there too; of others in containers it has likenesses, which follow these. `analysis`: that the mesh of it is to be in.
 
     >>> len(polycube.compound_of([part, other]).Shape.Solids)
     2
@@ -178,13 +178,13 @@ def compound_of(parts, analysis=None):
     document = parts[0].Document
     around = [shapes.container_of(part) for part in parts]
     shared = around[0] if around[0] and around[0].isDerivedFrom("App::Part") and all(one == around[0] for one in around) else None
-    linked = [part for part, container in zip(parts, around) if container and not shared]
-    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in linked):
+    shown = [part for part, container in zip(parts, around) if container and not shared]
+    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in shown):
         raise InvalidInput(tr("{} is in a container of some of the parts; move it out of there").format(analysis.Label))
     compound = document.addObject("Part::Compound", "MeshedParts")
     if shared:
         shared.addObject(compound)
-    compound.Links = [_link_to(part) if part in linked else part for part in parts]
+    compound.Links = [likeness.make(part) if part in shown else part for part in parts]
     compound.recompute()
     if not shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))):
         raise InvalidInput(tr("the parts are in containers that move them; put them into one App::Part and take that"))
@@ -192,22 +192,8 @@ def compound_of(parts, analysis=None):
 
 
 def stands_for(member, part):
-    """Whether the member of a compound_of() some objects is there for this one: it itself, or the link to it."""
-    if member == part:
-        return True
-    path = shapes.selection_path(part)
-    return bool(path[1]) and member.isDerivedFrom("App::Link") and member.LinkedObject == path and member.Placement.isIdentity()
-
-
-def _link_to(part):
-    """A new hidden link to an object in containers, which shows it where it stands."""
-    link = part.Document.addObject("App::Link", part.Name)
-    link.Label = part.Label
-    link.setLink(*shapes.selection_path(part))
-    link.LinkTransform = True
-    link.Visibility = False
-    link.recompute()
-    return link
+    """Whether the member of a compound_of() some objects is there for this one: it itself, or what shows it where it stands."""
+    return part in (member, shapes.shown_by(member))
 
 
 @_recorded

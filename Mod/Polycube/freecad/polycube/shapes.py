@@ -4,6 +4,8 @@ from .errors import InvalidInput
 from .words import noop, tr
 
 RELATIVE_TOLERANCE = 1e-7
+#: type of the proxies of likenesses
+LIKENESS = "Polycube::Likeness"
 #: what is wrong with a seam
 SEAM = noop("a seam, where a round face closes: the mesh has nodes there by chance only")
 
@@ -41,6 +43,14 @@ def solid_labels(thing):
     return [label for obj in solid_objects(thing) for label in _labels_of(obj)]
 
 
+def shown_by(member):
+    """The object in containers that a member of a compound shows where it stands, by a likeness or, in older documents, by a link into its container; or None."""
+    if getattr(getattr(member, "Proxy", None), "Type", "") == LIKENESS:
+        return member.Source
+    is_link = member.isDerivedFrom("App::Link") and isinstance(member.LinkedObject, tuple) and member.Placement.isIdentity()
+    return member.getLinkedObject() if is_link else None
+
+
 def _labels_of(obj):
     import Part
 
@@ -51,9 +61,7 @@ def _labels_of(obj):
         for solid in shape.Solids if shape else ():
             number = number_of(whole, solid)
             if number:
-                # A link into a container, as compounds of ours have, stands for what is there.
-                inside = isinstance(getattr(member, "LinkedObject", None), tuple)
-                labels[number - 1] = (member.getLinkedObject() if inside else member).Label
+                labels[number - 1] = (shown_by(member) or member).Label
     return labels
 
 
@@ -90,6 +98,12 @@ def container_of(obj):
     around = obj.getParentGeoFeatureGroup() or next((parent for parent in obj.InList if obj in _elements(parent)), None)
     group = None if around else obj.getParentGroup()
     return container_of(group) if group else around
+
+
+def containers_of(obj):
+    """All containers that the object stands in, the innermost first."""
+    around = container_of(obj)
+    return [around, *containers_of(around)] if around else []
 
 
 def standing(obj):

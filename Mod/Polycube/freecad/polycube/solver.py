@@ -95,8 +95,8 @@ def prepared(analysis, solver, folder):
         raise InvalidInput(tr("an analysis is needed"))
     try:
         there = ccx.find()
-    except RuntimeError as error:
-        raise InvalidInput(str(error)) from None
+    except RuntimeError:
+        raise InvalidInput(tr(ccx.NAMES_NONE).format(os.environ["POLYCUBE_CCX"])) from None
     if not there:
         raise InvalidInput(tr(ccx.MISSING))
     solvers = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemSolverObject")]

@@ -1,7 +1,7 @@
 """Brings the translations up to date with the workbench: python3 resources/translations/update.py [LANGUAGE...], a new language by its code, as fr.
 
-Texts are what tr() and noop() are called with, of noop() tuples of texts too, and names and meanings of the mesher's options. What is there stays; what is new is marked unfinished; what no
-text stands for any more goes. Without a language all that there are.
+Texts are what tr() and noop() are called with, noop() with tuples of texts too, and names and meanings of the mesher's options. What is there stays; what is
+new is marked unfinished; what no text stands for any more goes. Without a language all that there are.
 """
 
 import ast

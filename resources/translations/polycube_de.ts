@@ -1308,6 +1308,10 @@
       <translation>{} Zellen mit {} {} bis {}. Ein Klick zeigt sie allein.</translation>
     </message>
     <message>
+      <source>All-hexahedral FEM meshes of CAD solids</source>
+      <translation>FEM-Netze von CAD-Körpern aus lauter Hexaedern</translation>
+    </message>
+    <message>
       <source>the mesher left nothing that can be read: {}</source>
       <translation>der Vernetzer hat nichts hinterlassen, was zu lesen ist: {}</translation>
     </message>
@@ -2220,6 +2224,62 @@
       <translation>{} ist das Netz von {}. Löschen?</translation>
     </message>
     <message>
+      <source>General</source>
+      <translation>Allgemein</translation>
+    </message>
+    <message>
+      <source>Mesher</source>
+      <translation>Vernetzer</translation>
+    </message>
+    <message>
+      <source>The program polycube, or a Python that has the module _polycube, for a FreeCAD whose own Python has no such module. Empty: polycube on PATH.</source>
+      <translation>Das Programm polycube, oder ein Python, das das Modul _polycube hat, für ein FreeCAD, dessen eigenes Python kein solches Modul hat. Leer: polycube auf PATH.</translation>
+    </message>
+    <message>
+      <source>Work</source>
+      <translation>Arbeit</translation>
+    </message>
+    <message>
+      <source>Threads</source>
+      <translation>Threads</translation>
+    </message>
+    <message>
+      <source>For meshes that do not say how many; the mesh does not depend on it</source>
+      <translation>Für Netze, die nicht sagen, wie viele; das Netz hängt nicht davon ab</translation>
+    </message>
+    <message>
+      <source>all cores</source>
+      <translation>alle Kerne</translation>
+    </message>
+    <message>
+      <source>Temporary files</source>
+      <translation>Temporäre Dateien</translation>
+    </message>
+    <message>
+      <source>A folder for jobs that run; empty: the system's place for temporary files</source>
+      <translation>Ein Ordner für Läufe; leer: der Platz des Systems für temporäre Dateien</translation>
+    </message>
+    <message>
+      <source>New meshes in the panel</source>
+      <translation>Neue Netze im Aufgabenbereich</translation>
+    </message>
+    <message>
+      <source>Effort</source>
+      <translation>Aufwand</translation>
+    </message>
+    <message>
+      <source>quick</source>
+      <translation>schnell</translation>
+    </message>
+    <message>
+      <source>normal</source>
+      <translation>normal</translation>
+    </message>
+    <message>
+      <source>thorough</source>
+      <translation>gründlich</translation>
+    </message>
+    <message>
       <source>Edge length of the hexahedra. Default: by the part, near to bounding-box diagonal / 20.</source>
       <translation>Kantenlänge der Hexaeder. Ohne Angabe: nach dem Bauteil, etwa Diagonale der Hüllbox / 20.</translation>
     </message>
@@ -2256,24 +2316,8 @@
       <translation>Element von .inp-Dateien. Ohne Angabe: C3D8 oder C3D20 nach der Ordnung.</translation>
     </message>
     <message>
-      <source>Effort</source>
-      <translation>Aufwand</translation>
-    </message>
-    <message>
       <source>How many ways are tried where the first gives no good mesh: bounds the work, not the clock.</source>
       <translation>Wie viele Wege versucht werden, wo der erste kein gutes Netz gibt: begrenzt die Arbeit, nicht die Uhr.</translation>
-    </message>
-    <message>
-      <source>quick</source>
-      <translation>schnell</translation>
-    </message>
-    <message>
-      <source>normal</source>
-      <translation>normal</translation>
-    </message>
-    <message>
-      <source>thorough</source>
-      <translation>gründlich</translation>
     </message>
     <message>
       <source>Time limit</source>
@@ -2390,10 +2434,6 @@
     <message>
       <source>CAD faces none of whose edges is ignored, such as Face3,Face7. FreeCAD adds those that carry constraints.</source>
       <translation>CAD-Flächen, von denen keine Kante übergangen wird, wie Face3,Face7. FreeCAD fügt die hinzu, die Randbedingungen tragen.</translation>
-    </message>
-    <message>
-      <source>Threads</source>
-      <translation>Threads</translation>
     </message>
     <message>
       <source>Threads to use; the mesh does not depend on it. 0: all cores.</source>

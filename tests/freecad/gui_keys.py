@@ -2,6 +2,7 @@
 
 import glob
 import os
+import re
 from unittest import mock
 
 import FreeCAD
@@ -130,7 +131,8 @@ class Themes(KeysTest):
         self.assertTrue(themes)
         for theme in themes:
             with self.subTest(theme=os.path.basename(theme)), open(theme, encoding="utf-8") as file:
-                QtGui.QApplication.instance().setStyleSheet(file.read())
+                # FreeCAD 1.x fills in the colours that the user has chosen.
+                QtGui.QApplication.instance().setStyleSheet(re.sub(r"@ThemeAccentColor\d", "#557bb6", file.read()))
                 panel = self.open_panel(self.box)
                 panel.field("size").value = 8.0
                 panel.advanced.set_open(True)

@@ -169,7 +169,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 def compound_of(parts, analysis=None):
     """A new Part::Compound of document objects, which stands where they stand and follows them. Raises InvalidInput where no compound can.
 
-    Of objects in one App::Part it is in there too; of others in containers it has likenesses, which follow these. `analysis`: that the mesh of it is to be in.
+    Of objects in one App::Part it is in there too; of others in containers it has likenesses, objects that show these
+    where they stand. `analysis`: that the mesh of it is to be in.
 
     >>> len(polycube.compound_of([part, other]).Shape.Solids)
     2

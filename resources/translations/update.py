@@ -1,7 +1,7 @@
 """Brings the translations up to date with the workbench: python3 resources/translations/update.py [LANGUAGE...], a new language by its code, as fr.
 
-Texts are what tr() and noop() are called with, and names and meanings of the mesher's options. What is there stays; what is new is marked unfinished; what no
-text stands for any more goes. Without a language all that there are.
+Texts are what tr() and noop() are called with, noop() with tuples of texts too, what the forms in resources/ui hold, and names and meanings of the mesher's
+options. What is there stays; what is new is marked unfinished; what no text stands for any more goes. Without a language all that there are.
 """
 
 import ast
@@ -23,8 +23,10 @@ def texts():
             tree = ast.parse(file.read())
         calls = [node for node in ast.walk(tree) if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("tr", "noop")]
         for call in sorted(calls, key=lambda call: (call.lineno, call.col_offset)):
-            if isinstance(call.args[0], ast.Constant):
-                found[call.args[0].value] = None
+            # a text, or a tuple of texts
+            found.update((one.value, None) for one in getattr(call.args[0], "elts", call.args[:1]) if isinstance(one, ast.Constant))
+    for path in sorted(glob.glob(os.path.join(HERE, "..", "ui", "*.ui"))):
+        found.update((string.text, None) for string in ElementTree.parse(path).iter("string") if not string.get("notr"))
     with open(os.path.join(WORKBENCH, "engine.json"), encoding="utf-8") as file:
         for option in json.load(file)["options"]:
             found[option["name"].replace("_", " ").capitalize()] = None

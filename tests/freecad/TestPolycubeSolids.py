@@ -1,6 +1,8 @@
 """Several solids in one mesh: objects, groups, materials, ties."""
 
 import math
+import os
+import tempfile
 
 import FreeCAD
 import ObjectsFem
@@ -9,7 +11,7 @@ import TestPolycubeSolve as solving
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import objects, shapes
+from freecad.polycube import api, objects, shapes
 
 
 class BarsTest(solving.SolveTest):
@@ -237,6 +239,51 @@ class Assemblies(BarsTest):
             self.document.undo()
             self.assertEqual(len(self.document.Objects), before)
             self.assertEqual(len(shapes.shape_of(containers[0]).Solids), 3 - count)
+
+    def test_undo_and_redo_of_a_compound_of_objects_in_containers(self):
+        """In one step, again and again, and the document can be saved after it: FreeCAD 1.0 leaves ruins where the making of a link is undone."""
+        parts, _ = self.in_containers(2)
+        parts[0].Label = "Flange"
+        self.document.clearUndos()
+        before = [obj.Name for obj in self.document.Objects]
+        with api.transaction(self.document, "Compound"):
+            compound = polycube.compound_of(parts)
+        size, height = compound.Shape.BoundBox.DiagonalLength, compound.Shape.BoundBox.ZMax
+        after = [obj.Name for obj in self.document.Objects]
+        for _ in range(3):
+            self.assertEqual(list(self.document.UndoNames), ["Compound"])
+            self.document.undo()
+            self.document.recompute()
+            self.assertEqual([obj.Name for obj in self.document.Objects], before)
+            self.document.redo()
+            self.document.recompute()
+            self.assertEqual([obj.Name for obj in self.document.Objects], after)
+            self.assertEqual(compound.Shape.BoundBox.DiagonalLength, size)
+            self.assertEqual([shapes.shown_by(member) for member in compound.Links], parts)
+        with tempfile.TemporaryDirectory() as folder:
+            path, name, names = os.path.join(folder, "compound.FCStd"), compound.Name, [part.Name for part in parts]
+            self.document.saveAs(path)
+            FreeCAD.closeDocument(self.document.Name)
+            self.document = FreeCAD.openDocument(path)
+        compound = self.document.getObject(name)
+        self.assertEqual([shapes.shown_by(member).Name for member in compound.Links], names)
+        shapes.shown_by(compound.Links[0]).getParentGeoFeatureGroup().Placement.Base.z += 100
+        self.document.recompute()
+        self.assertGreater(compound.Shape.BoundBox.ZMax, height + 50)
+        self.assertEqual(shapes.solid_labels(compound)[0], "Flange")
+
+    def test_a_compound_of_links_as_older_documents_have_it(self):
+        parts, containers = self.in_containers(2)
+        compound = self.document.addObject("Part::Compound", "Older")
+        for part, container in zip(parts, containers):
+            link = self.document.addObject("App::Link", part.Name)
+            link.setLink(container, part.Name + ".")
+            link.LinkTransform, link.Label = True, "Link"
+            compound.Links += [link]
+        self.document.recompute()
+        self.assertTrue(all(any(api.stands_for(member, part) for member in compound.Links) for part in parts))
+        self.assertEqual(shapes.solid_labels(compound), [part.Label for part in parts])
+        self.assertTrue(shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))))
 
     def test_labels_of_the_objects(self):
         """In the report and in refusals, by the objects of a list, of a compound, of fragments and of containers."""

@@ -1,5 +1,8 @@
 """The panel while its document changes under it: undo, the tree, the property editor, renamed parts, analyses, other views in front; run by gui.sh."""
 
+import os
+import tempfile
+
 import FemGui
 import FreeCAD
 import FreeCADGui
@@ -268,7 +271,7 @@ class BesideEachOther(FollowTest):
                 self.assertEqual(self.lines, ["from freecad import polycube"])
 
     def test_parts_in_moved_containers(self):
-        """In one, where the compound is too, and in one each, where it has links: they go with a panel that is closed, and another one finds them."""
+        """In one, where the compound is too, and in one each, where it has likenesses: they go with a panel that is closed, and another one finds them."""
         for count in (1, 2):
             with self.subTest(containers=count):
                 containers = [self.document.addObject("App::Part", "Container") for _ in range(count)]
@@ -301,6 +304,31 @@ class BesideEachOther(FollowTest):
                 for container in containers:
                     container.removeObjects([self.box, self.pin])
                     self.document.removeObject(container.Name)
+
+    def test_the_user_undoes_a_compound_of_parts_in_containers(self):
+        """By the command, mesh and compound, redoes and undoes them again: nothing is left, and the document can be saved. FreeCAD 1.0 fails to undo links."""
+        containers = [self.document.addObject("App::Part", "Container") for _ in range(2)]
+        for container, part in zip(containers, (self.box, self.pin)):
+            container.addObject(part)
+            container.Placement.Base = FreeCAD.Vector(0, 30, 0)
+        self.document.recompute()
+        self.document.clearUndos()
+        before = [obj.Name for obj in self.document.Objects]
+        panel = self.open_for_both()
+        panel.field("size").value = 10.0
+        self.apply(panel)
+        self.press("Ok")
+        self.settle()
+        after = [obj.Name for obj in self.document.Objects]
+        self.assertEqual(len(after), len(before) + 4)
+        for command, names in (("Std_Undo", before), ("Std_Redo", after)) * 2:
+            for _ in range(2):
+                FreeCADGui.runCommand(command)
+                self.settle()
+            self.document.recompute()
+            self.assertEqual([obj.Name for obj in self.document.Objects], names)
+        with tempfile.TemporaryDirectory() as folder:
+            self.document.saveAs(os.path.join(folder, "undone.FCStd"))
 
     def test_what_refers_to_the_compound_keeps_it(self):
         panel = self.open_for_both()

@@ -2,16 +2,21 @@
 
 import glob
 import os
+import re
 from unittest import mock
 
 import FreeCAD
 import FreeCADGui
 import gui_panel
 import ObjectsFem
+import TestPolycubeSolver
 from gui_support import picture, process_events, set_panel_width, wait_until
 from PySide import QtCore, QtGui
 
-from freecad.polycube import objects, words
+from freecad import polycube
+from freecad.polycube import deck, objects, uncaptured, words
+
+calculix = TestPolycubeSolver.calculix
 
 
 def press(key, text=""):
@@ -126,7 +131,8 @@ class Themes(KeysTest):
         self.assertTrue(themes)
         for theme in themes:
             with self.subTest(theme=os.path.basename(theme)), open(theme, encoding="utf-8") as file:
-                QtGui.QApplication.instance().setStyleSheet(file.read())
+                # FreeCAD 1.x fills in the colours that the user has chosen.
+                QtGui.QApplication.instance().setStyleSheet(re.sub(r"@ThemeAccentColor\d", "#557bb6", file.read()))
                 panel = self.open_panel(self.box)
                 panel.field("size").value = 8.0
                 panel.advanced.set_open(True)
@@ -187,6 +193,38 @@ class German(KeysTest):
         with mock.patch.object(QtGui.QMessageBox, "warning", lambda *words: told.append(words[2]) or QtGui.QMessageBox.No):
             self.assertFalse(panel.obj.ViewObject.Proxy.onDelete(panel.obj.ViewObject, ()))
         self.assertEqual(told, ["PolycubeMesh ist das Netz von Analyse. Löschen?"])
+
+    def test_what_the_mesher_says(self):
+        """An option that it does not take, a stage that fails with its faces, a warning, a line on the analysis: none has a word of English."""
+        panel = self.open_panel(self.box)
+        for name, text, told in (
+            ("sizes", "Face3=0,5", r"sizes: '0,5' hat ein Komma, wo ein Punkt stehen muss, wie in 0.5$"),
+            ("divisions", "Face1-Face3=3", r"Abgelehnt: Zahlen der Zellen wählen: die Flächen der Teilung Face1-Face3=3 liegen sich nirgends gegenüber \(Face1, Face3\)\. Versuchen"),
+        ):
+            panel.field(name).value = text
+            self.apply(panel)
+            self.assertRegex(panel.form.status.text(), told)
+            panel.field(name).value = ""
+        picture("german-refusal")
+        panel.field("hexes").value = 5
+        self.apply(panel)
+        self.assertRegex(panel.form.status.text(), r"^Vernetzt: .* Hexaeder, wo 5 verlangt waren$")
+        self.press("Ok")
+        with self.assertRaisesRegex(polycube.InvalidInput, "^size muss größer als 0 sein, nicht -1$"):
+            polycube.mesh(self.box, size=-1)
+        analysis = ObjectsFem.makeAnalysis(self.document, "Analyse")
+        other = self.document.addObject("Part::Box", "Anderes")
+        other.Placement.Base.x = 100
+        self.document.recompute()
+        calculix.add_constraint(analysis, "Fixed", other, ["Face1"]).Label = "Halt"
+        self.assertEqual(uncaptured.lines(self.box, analysis), ["Halt: Face1 von Anderes ist nicht von Block"])
+        line = deck.choose(None, 2, fem_mesh_of_a_bar(), set())[2]
+        self.assertEqual(line, "C3D20 statt C3D20R in 2 von 2 Zellen, gegen Hourglassing: 2, die der ganze Querschnitt eines Stabs sind")
+
+
+def fem_mesh_of_a_bar():
+    """What deck.choose() asks a mesh of two cells one behind the other."""
+    return mock.Mock(Volumes=[1, 2], VolumeCount=2, sides=lambda: {number: (1 + number // 5, 1 + number % 5) for number in range(10)})
 
 
 class InSight(KeysTest):

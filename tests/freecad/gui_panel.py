@@ -580,6 +580,25 @@ class Preferences(PanelTest):
         self.assertEqual(os.listdir(folder), [])
         self.press("Cancel")
 
+    def test_the_page_in_german(self):
+        speak_german(self)
+        process_events()  # FreeCAD 1.0 ends where its dialog hears of the language before it is shown
+        texts = []
+
+        def look():
+            dialog = QtGui.QApplication.activeModalWidget()
+            spin = dialog.findChild(QtGui.QSpinBox, "Threads")
+            page = spin.parentWidget().parentWidget()
+            texts.extend(widget.title() for widget in page.findChildren(QtGui.QGroupBox))
+            texts.extend([spin.specialValueText(), dialog.findChild(QtGui.QComboBox, "Effort").itemText(2)])
+            picture("preferences-german")
+            dialog.reject()
+
+        QtCore.QTimer.singleShot(1000, look)
+        FreeCADGui.showPreferences("Polycube", 0)
+        process_events()
+        self.assertEqual(texts, ["Vernetzer", "Arbeit", "Neue Netze im Aufgabenbereich", "alle Kerne", "gründlich"])
+
     def test_a_folder_that_is_none(self):
         self.group.SetString("TemporaryFolder", "/nowhere/at/all")
         panel = self.open_panel(self.box)

@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 import FreeCAD
 
-from . import shapes
+from . import likeness, shapes
 from .errors import InvalidInput
 from .words import tr
 
@@ -43,7 +43,7 @@ def _on_what_is_there(call):
         try:
             return call(*arguments, **named)
         except ReferenceError as error:
-            raise InvalidInput("an object that is needed, or its document, is gone: {}".format(error)) from None
+            raise InvalidInput(tr("an object that is needed, or its document, is gone: {}").format(error)) from None
 
     return called
 
@@ -136,11 +136,11 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
         _check_object(one)
     document = parts[0].Document
     if any(one.Document != document for one in parts):
-        raise InvalidInput("the parts are in different documents")
+        raise InvalidInput(tr("the parts are in different documents"))
     parts = shapes.distinct(parts)
     part = parts if len(parts) > 1 else parts[0]
     if not isinstance(name, str) or not name:
-        raise InvalidInput("name: not a name but {!r}".format(name))
+        raise InvalidInput(tr("name: not a name but {!r}").format(name))
     _check_analysis(analysis, parts[0])
     given = _given(size=size, order=order, **more)
     shape = shapes.shape_of(part, beside=analysis)
@@ -169,7 +169,8 @@ def create_fem_mesh(part, size=None, order=2, analysis=None, name="PolycubeMesh"
 def compound_of(parts, analysis=None):
     """A new Part::Compound of document objects, which stands where they stand and follows them. Raises InvalidInput where no compound can.
 
-    Of objects in one App::Part it is in there too; of others in containers it has links, which follow these. `analysis`: that the mesh of it is to be in.
+    Of objects in one App::Part it is in there too; of others in containers it has likenesses, objects that show these
+    where they stand. `analysis`: that the mesh of it is to be in.
 
     >>> len(polycube.compound_of([part, other]).Shape.Solids)
     2
@@ -178,36 +179,22 @@ def compound_of(parts, analysis=None):
     document = parts[0].Document
     around = [shapes.container_of(part) for part in parts]
     shared = around[0] if around[0] and around[0].isDerivedFrom("App::Part") and all(one == around[0] for one in around) else None
-    linked = [part for part, container in zip(parts, around) if container and not shared]
-    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in linked):
-        raise InvalidInput("{} is in a container of some of the parts; move it out of there".format(analysis.Label))
+    shown = [part for part, container in zip(parts, around) if container and not shared]
+    if analysis and any(shapes.selection_path(part)[0] in analysis.InListRecursive for part in shown):
+        raise InvalidInput(tr("{} is in a container of some of the parts; move it out of there").format(analysis.Label))
     compound = document.addObject("Part::Compound", "MeshedParts")
     if shared:
         shared.addObject(compound)
-    compound.Links = [_link_to(part) if part in linked else part for part in parts]
+    compound.Links = [likeness.make(part) if part in shown else part for part in parts]
     compound.recompute()
     if not shapes.same(shapes.signature(shapes.shape_of(compound)), shapes.signature(shapes.shape_of(parts))):
-        raise InvalidInput("the parts are in containers that move them; put them into one App::Part and take that")
+        raise InvalidInput(tr("the parts are in containers that move them; put them into one App::Part and take that"))
     return compound
 
 
 def stands_for(member, part):
-    """Whether the member of a compound_of() some objects is there for this one: it itself, or the link to it."""
-    if member == part:
-        return True
-    path = shapes.selection_path(part)
-    return bool(path[1]) and member.isDerivedFrom("App::Link") and member.LinkedObject == path and member.Placement.isIdentity()
-
-
-def _link_to(part):
-    """A new hidden link to an object in containers, which shows it where it stands."""
-    link = part.Document.addObject("App::Link", part.Name)
-    link.Label = part.Label
-    link.setLink(*shapes.selection_path(part))
-    link.LinkTransform = True
-    link.Visibility = False
-    link.recompute()
-    return link
+    """Whether the member of a compound_of() some objects is there for this one: it itself, or what shows it where it stands."""
+    return part in (member, shapes.shown_by(member))
 
 
 @_recorded
@@ -224,7 +211,7 @@ def update_fem_mesh(obj, progress=None, log=None, cancel=None, **more):
     _check_mesh(obj)
     part = objects.part_of(obj)
     if part is None:
-        raise InvalidInput("the part that {} was made of is gone".format(obj.Label))
+        raise InvalidInput(tr("the part that {} was made of is gone").format(obj.Label))
     given = option_table.without_defaults({**option_table.read(obj), **_given(**more)})
     shape = shapes.shape_of(part, beside=obj)
     meshed = shapes.signature(shape)
@@ -284,7 +271,7 @@ def set_refinement(obj, value=None, suppressed=None):
     from . import refinements
 
     if not refinements.is_refinement(obj):
-        raise InvalidInput("{} is no refinement".format(getattr(obj, "Label", obj)))
+        raise InvalidInput(tr("{} is no refinement").format(getattr(obj, "Label", obj)))
     with transaction(obj.Document, tr("Refinement")):
         if value is not None:
             refinements.set_value(obj, value)
@@ -395,28 +382,28 @@ def _given(**values):
 
 def _check_object(part):
     if part is None or not hasattr(part, "Document"):
-        raise InvalidInput("a document object with a shape is needed")
+        raise InvalidInput(tr("a document object with a shape is needed"))
     _check_exists(part)
 
 
 def _check_analysis(analysis, beside):
     if analysis is not None and not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
-        raise InvalidInput("analysis is not an analysis object")
+        raise InvalidInput(tr("analysis is not an analysis object"))
     if analysis is not None and analysis.Document != beside.Document:
-        raise InvalidInput("{} is in another document than {}".format(analysis.Label, beside.Label))
+        raise InvalidInput(tr("{} is in another document than {}").format(analysis.Label, beside.Label))
 
 
 def _check_mesh(obj):
     from . import objects
 
     if not objects.is_polycube(obj):
-        raise InvalidInput("{} is no mesh of Polycube".format(getattr(obj, "Label", obj)))
+        raise InvalidInput(tr("{} is no mesh of Polycube").format(getattr(obj, "Label", obj)))
     _check_exists(obj)
 
 
 def _check_exists(obj):
     if not shapes.exists(obj):
-        raise InvalidInput("an object that is needed, or its document, is gone")
+        raise InvalidInput(tr("an object that is needed, or its document, is gone"))
 
 
 def _tell_uncaptured(part, analysis):

@@ -10,6 +10,7 @@ import re
 
 from . import compat, shapes
 from .load_sets import references
+from .words import tr
 
 #: share of the loads by which reactions may miss them
 TOLERANCE = 0.005
@@ -36,8 +37,8 @@ class Balance:
     def line(self):
         """One line for the log."""
         parts = ["({})".format(", ".join("{:.6g}".format(value) for value in vector)) for vector in (self.loads, self.reactions)]
-        said = "reactions {} N carry the loads {} N".format(parts[1], parts[0])
-        return "{}, but for {:.2g} %".format(said, 100 * self.miss) if self.holds else "NOT IN BALANCE by {:.2g} %: {}".format(100 * self.miss, said)
+        said = tr("reactions {} N carry the loads {} N").format(parts[1], parts[0])
+        return tr("{}, but for {:.2g} %").format(said, 100 * self.miss) if self.holds else tr("NOT IN BALANCE by {:.2g} %: {}").format(100 * self.miss, said)
 
 
 def check(mesh, member, special, supports, path, set_name):

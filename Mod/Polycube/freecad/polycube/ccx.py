@@ -5,7 +5,14 @@ import shutil
 
 import FreeCAD
 
-MISSING = "CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)"
+
+def noop(text):
+    """As words.noop(), which cannot be had where this file is run by its path."""
+    return text
+
+
+MISSING = noop("CalculiX is not there; POLYCUBE_CCX=/path/to/ccx names it, or FreeCAD's preferences (FEM, CalculiX)")
+NAMES_NONE = noop("POLYCUBE_CCX names no program: {}")
 
 
 def find():
@@ -14,7 +21,7 @@ def find():
     if named:
         found = shutil.which(named)
         if not found:
-            raise RuntimeError("POLYCUBE_CCX names no program: " + named)
+            raise RuntimeError(NAMES_NONE.format(named))
         return found
     preferences = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx")
     preferred = None if preferences.GetBool("UseStandardCcxLocation", True) else preferences.GetString("ccxBinaryPath", "")

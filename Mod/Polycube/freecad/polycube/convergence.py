@@ -41,8 +41,10 @@ class Convergence:
     def line(self):
         if self.limit is None:
             share = " ({:.2g} %)".format(100 * self.band / abs(self.value)) if self.value else ""
-            return "{}: {:.6g} on the finest mesh; no order is to be seen, the last three differ by {:.2g}{}".format(self.quantity, self.value, self.band, share)
-        return "{}: {:.6g} on the finest mesh, {:.6g} +- {:.2g} in the limit, order {:.1f}".format(self.quantity, self.value, self.limit, self.band, self.order)
+            line = tr("{}: {:.6g} on the finest mesh; no order is to be seen, the last three differ by {:.2g}{}")
+            return line.format(self.quantity, self.value, self.band, share)
+        line = tr("{}: {:.6g} on the finest mesh, {:.6g} +- {:.2g} in the limit, order {:.1f}")
+        return line.format(self.quantity, self.value, self.limit, self.band, self.order)
 
     def plot(self, path):
         """Values over cells with the limit and its band, to a file .png or .svg."""
@@ -98,7 +100,7 @@ def converge(analysis, sizes=3, quantity="max displacement", element=None, solve
     """
     meshes = [member for member in getattr(analysis, "Group", []) if objects.is_polycube(member)]
     if len(meshes) != 1:
-        raise InvalidInput("an analysis with a mesh of Polycube is needed")
+        raise InvalidInput(tr("an analysis with a mesh of Polycube is needed"))
     (mesh,) = meshes
     measure, name = _measure(quantity, mesh)
     series, rows = list(_options(mesh, sizes)), []
@@ -140,9 +142,9 @@ def _options(mesh, sizes):
     try:
         sizes = sorted((float(size) for size in sizes), reverse=True)
     except (TypeError, ValueError):
-        raise InvalidInput("sizes: neither their number nor a list of sizes but {!r}".format(sizes)) from None
+        raise InvalidInput(tr("sizes: neither their number nor a list of sizes but {!r}").format(sizes)) from None
     if len(sizes) < 3 or len(set(sizes)) < len(sizes) or sizes[-1] <= 0:
-        raise InvalidInput("three different sizes are needed, or more")
+        raise InvalidInput(tr("three different sizes are needed, or more"))
     for size in sizes:
         found = dict(options, size=size, per_circle=round(round_circles * now / size), min_layers=max(1, round(through_walls * now / size)))
         if options.get("max_size"):
@@ -165,11 +167,11 @@ def _measure(quantity, mesh):
         unit = {"displacement": "mm", "stress": "MPa"}[what]
         if isinstance(where, str):
             if where not in ("Face{}".format(i + 1) for i in range(len(shapes.numbered_shape(objects.part_of(mesh)).Faces))):
-                raise LookupError("there is no {}".format(where))
+                raise LookupError(tr("there is no {}").format(where))
             return lambda result: _mean(mesh, where, result, values(result)), "mean {} on {} / {}".format(what, where, unit)
         place = FreeCAD.Vector(*where)
     except (TypeError, ValueError, KeyError):
-        raise InvalidInput('a quantity is "max displacement", "max stress", ((x, y, z), "stress") or ("Face3", "displacement")') from None
+        raise InvalidInput(tr('a quantity is "max displacement", "max stress", ((x, y, z), "stress") or ("Face3", "displacement")')) from None
     except LookupError as error:
         raise InvalidInput(str(error)) from None
     return lambda result: _at(mesh, place, result, values(result)), "{} at {} / {}".format(what, tuple(place), unit)

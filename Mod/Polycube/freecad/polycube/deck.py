@@ -3,6 +3,7 @@
 import re
 
 from .errors import InvalidInput
+from .words import count, tr
 
 #: element types by order of the mesh, the default first; FreeCAD writes C3D8 and C3D20
 TYPES = {1: ("C3D8I", "C3D8"), 2: ("C3D20R", "C3D20")}
@@ -22,7 +23,7 @@ def choose(element, order, mesh, loaded, heat=False):
     good as with C3D20. So cells with free sides across from each other in two directions get C3D20, and those at point loads.
     """
     if element is not None and element not in TYPES[order]:
-        raise InvalidInput("{} is not an element of a mesh of order {}: {}".format(element, order, ", ".join(TYPES[order])))
+        raise InvalidInput(tr("{} is not an element of a mesh of order {}: {}").format(element, order, ", ".join(TYPES[order])))
     chosen = element or ("C3D20" if heat and order == 2 else TYPES[order][0])
     if element or chosen != "C3D20R":
         return chosen, {}, ""
@@ -30,9 +31,9 @@ def choose(element, order, mesh, loaded, heat=False):
     others = sorted(alone | pointed)
     if not others:
         return chosen, {}, ""
-    why = ["{} that are the whole section of a bar".format(len(alone))] if alone else []
-    why += ["{} at point loads".format(len(pointed - alone))] if pointed - alone else []
-    line = "C3D20 in place of C3D20R in {} of {} cells, against hourglassing: {}".format(len(others), mesh.VolumeCount, " and ".join(why))
+    why = [tr("{} that are the whole section of a bar").format(count(len(alone)))] if alone else []
+    why += [tr("{} at point loads").format(count(len(pointed - alone)))] if pointed - alone else []
+    line = tr("C3D20 in place of C3D20R in {} of {} cells, against hourglassing: {}").format(count(len(others)), count(mesh.VolumeCount), tr(" and ").join(why))
     return chosen, {"C3D20": others}, line
 
 

@@ -17,6 +17,7 @@ from functools import lru_cache
 import FreeCAD
 
 from .errors import NoMesher
+from .words import tr
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 _MODULE = "_polycube"
@@ -64,11 +65,11 @@ def _find(preferred, _path, _python_path):
     if found:
         return found
     raise NoMesher(
-        "no mesher is at hand: this Python has no module {}, and {}".format(
+        tr("no mesher is at hand: this Python has no module {}, and {}").format(
             _MODULE,
-            "the preference Mesher names neither the program {} nor a Python that has the module: {}".format(_PROGRAM, preferred)
+            tr("the preference Mesher names neither the program {} nor a Python that has the module: {}").format(_PROGRAM, preferred)
             if preferred
-            else "there is no program {} on PATH; Edit > Preferences > Polycube names one".format(_PROGRAM),
+            else tr("there is no program {} on PATH; Edit > Preferences > Polycube names one").format(_PROGRAM),
         )
     )
 

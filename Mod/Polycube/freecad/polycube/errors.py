@@ -2,6 +2,8 @@
 
 import difflib
 
+from .words import tr
+
 
 class PolycubeError(Exception):
     """Base of all errors raised on purpose; the message is one line."""
@@ -39,4 +41,4 @@ class SolverFailed(PolycubeError, RuntimeError):
 def did_you_mean(name, known, otherwise):
     """The end of a message about a wrong name: the one that is near to it, or `otherwise` and all that there are."""
     near = difflib.get_close_matches(str(name), known, 1)
-    return "; did you mean '{}'?".format(near[0]) if near else otherwise + ", ".join(known)
+    return tr("; did you mean '{}'?").format(near[0]) if near else otherwise + ", ".join(known)

@@ -5,6 +5,8 @@ On the Lame tube it is 1 to 3 times the error with C3D20, 2 to 6 times with C3D2
 
 import os
 
+from .words import tr
+
 #: how many faces are named
 WORST = 3
 
@@ -18,7 +20,7 @@ class StressError:
     def line(self):
         """One line for the log; "" where no face has a stress."""
         named = ["{} ({} MPa, {} %)".format(name, _two_digits(stress), _two_digits(percent)) for name, stress, percent in self.faces]
-        return "stresses differ most from cell to cell, and a finer mesh changes them most, on " + ", ".join(named) if named else ""
+        return tr("stresses differ most from cell to cell, and a finer mesh changes them most, on {}").format(", ".join(named)) if named else ""
 
 
 def _two_digits(value):

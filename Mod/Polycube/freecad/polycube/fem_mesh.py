@@ -3,9 +3,10 @@
 import importlib.util
 
 from . import compat, engine, shapes
+from .words import noop, tr
 
 #: Constraints that FreeCAD's own search, in 0.20 and 1.0, does not find on hexahedra: it knows tetrahedra only.
-_TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": "heat flux", "Fem::ConstraintSectionPrint": "section print"}
+_TETRAHEDRA_ONLY = {"Fem::ConstraintHeatflux": noop("heat flux"), "Fem::ConstraintSectionPrint": noop("section print")}
 #: Constraints that FreeCAD has in its menus and, in some versions, no writer for: type and the writer's name, by which special_loads knows them
 _SPECIAL = {
     "Fem::ConstraintBearing": "bearing",
@@ -15,7 +16,7 @@ _SPECIAL = {
     "Fem::ConstraintSpring": "spring",
 }
 #: Constraints that load faces of the mesh.
-_FACE_LOADS = {"Fem::ConstraintForce": "force", "Fem::ConstraintPressure": "pressure"}
+_FACE_LOADS = {"Fem::ConstraintForce": noop("force"), "Fem::ConstraintPressure": noop("pressure")}
 #: Nodes or elements that are added between two breaths: a few hundredths of a second.
 _SLICE = 4000
 
@@ -82,15 +83,15 @@ def add_constraint_groups(mesh, result, part, analysis, groups_are_asked):
         kind = getattr(getattr(member, "Proxy", None), "Type", "") or member.TypeId
         what = _TETRAHEDRA_ONLY.get(kind) or _TETRAHEDRA_ONLY.get(member.TypeId)
         if what and not groups_are_asked:
-            warnings.append("{}: FreeCAD cannot apply {} to hexahedra".format(member.Label, what))
+            warnings.append(tr("{}: FreeCAD cannot apply {} to hexahedra").format(member.Label, tr(what)))
         writer = special_kind(member)
         if writer and not importlib.util.find_spec("femsolver.calculix.write_constraint_" + writer):
-            warnings.append("{}: this FreeCAD's own run of CalculiX leaves it out, polycube.solve does not".format(member.Label))
+            warnings.append(tr("{}: this FreeCAD's own run of CalculiX leaves it out, polycube.solve does not").format(member.Label))
         if kind in ("Fem::MaterialCommon", "Fem::Material"):
             materials.append(member)
         elif member.isDerivedFrom("Fem::Constraint"):
             references = _references(member, part)
-            warnings += ["{}: the mesh does not capture {}".format(member.Label, name) for name in references if name in lost]
+            warnings += [tr("{}: the mesh does not capture {}").format(member.Label, name) for name in references if name in lost]
             references = [name for name in references if name in result.groups and not name.startswith("Solid")]
             nodes = sorted({int(node) + 1 for name in references for node in result.groups[name]["nodes"]})
             if references and set(nodes) - _found(mesh, whole, references):
@@ -129,9 +130,8 @@ def _lost_load(mesh, result, member, whole, references, load):
         if name.startswith("Face"):
             found, there = len(mesh.getFacesByFace(whole.getElement(name))), len(result.groups[name]["quads"])
             if found < there:
-                yield "{}: FreeCAD finds {} of the {} mesh faces on {}, {} the {} gets lost".format(
-                    member.Label, found, there, name, "part of" if found else "all of", load
-                )
+                share = tr("part of the {} gets lost") if found else tr("all of the {} gets lost")
+                yield tr("{}: FreeCAD finds {} of the {} mesh faces on {}, {}").format(member.Label, found, there, name, share.format(tr(load)))
 
 
 def _references(member, part):

@@ -3,7 +3,8 @@
 import FreeCADGui
 
 from . import commands, resources
-
+from .preferences_page import PreferencesPage
+from .words import tr
 
 #: What an analysis needs beside the mesh; of the names that a command has had, the first is taken that FreeCAD knows.
 _FEM_COMMANDS = [
@@ -20,7 +21,7 @@ class PolycubeWorkbench(FreeCADGui.Workbench):
     """Hexahedral meshes; the rest of an analysis is the FEM workbench's."""
 
     MenuText = "Polycube"
-    ToolTip = "All-hexahedral FEM meshes of CAD solids"
+    ToolTip = tr("All-hexahedral FEM meshes of CAD solids")
     Icon = resources.icon("Polycube_Workbench")
 
     def Initialize(self):
@@ -77,7 +78,7 @@ def _action(menu):
 commands.register()
 FreeCADGui.addWorkbench(PolycubeWorkbench())
 FreeCADGui.addIcon("preferences-polycube", resources.icon("Polycube_Workbench"))
-FreeCADGui.addPreferencePage(resources.path("ui", "Preferences.ui"), "Polycube")
+FreeCADGui.addPreferencePage(PreferencesPage, "Polycube")
 if hasattr(FreeCADGui, "addWorkbenchManipulator"):
     FreeCADGui.addWorkbenchManipulator(_FemMenu())
 else:

@@ -15,8 +15,10 @@ import threading
 import time
 
 from . import engine, preferences, result
+from .engine_words import told
 from .errors import Cancelled, InvalidInput, PolycubeError, StageFailed
 from .job_folder import JobFolder
+from .words import tr
 
 # From the time limit to the end by force, seconds: the child ends by itself, unless a query of the CAD kernel holds it. As on the command line
 # (kGrace in backend/cli/supervise.cpp), within the 2 s after the limit that the contract gives.
@@ -110,7 +112,7 @@ def outcome(folder, what, status, last_words="", stage=""):
         raise
     except Exception as error:  # a program that is another mesher, or none, may leave anything
         reason = "{}: {}".format(type(error).__name__, error).splitlines()[0]
-        raise StageFailed("the mesher left nothing that can be read: {}".format(reason), stage or "start", []) from error
+        raise StageFailed(tr("the mesher left nothing that can be read: {}").format(reason), stage or "start", []) from error
 
 
 def _left(folder, what, status, last_words, stage):
@@ -121,13 +123,13 @@ def _left(folder, what, status, last_words, stage):
         with open(path, encoding="utf-8") as file:
             found = json.load(file)
         if found["kind"] == "StageFailed":
-            raise StageFailed(found["message"], found["stage"], found["entities"])
+            raise StageFailed(told(found["message"]), found["stage"], found["entities"])
         # The engine writes options as on the command line, --time-limit; here they are time_limit.
-        raise _KINDS[found["kind"]](re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"]))
-    reason = last_words.strip().splitlines()[-1] if last_words.strip() else "no message"
+        raise _KINDS[found["kind"]](told(re.sub(r"--([a-z][a-z-]*)", lambda option: _argument_name(option.group(1)), found["message"])))
+    reason = last_words.strip().splitlines()[-1] if last_words.strip() else tr("no message")
     if status < 0:
-        raise StageFailed("the mesher was ended by {}: {}".format(_signal_name(-status), reason), stage or "start", [])
-    raise StageFailed("the mesher ended unexpectedly (status {}): {}".format(status, reason), stage or "start", [])
+        raise StageFailed(tr("the mesher was ended by {}: {}").format(_signal_name(-status), reason), stage or "start", [])
+    raise StageFailed(tr("the mesher ended unexpectedly (status {}): {}").format(status, reason), stage or "start", [])
 
 
 def _signal_name(number):
@@ -173,7 +175,7 @@ def run(job, progress=None, log=None, cancel=None, idle=None):
     if watcher.error:
         raise watcher.error
     if watcher.reason:
-        raise Cancelled(watcher.reason)
+        raise Cancelled(tr(watcher.reason))
     return job.finish(status, last_words)
 
 

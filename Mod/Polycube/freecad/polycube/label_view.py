@@ -15,9 +15,9 @@ _GAP = 0.3
 
 
 def key():
-    """The six colours with their names, as rich text."""
+    """The six colours with their names, as rich text that is broken between them only."""
     pairs = zip(engine.description()["label_names"], engine.description()["label_colours"])
-    return "&nbsp;&nbsp;".join('<span style="color:rgb{}">&#9632;</span>&nbsp;{}'.format(tuple(colour), name) for name, colour in pairs)
+    return "&nbsp; ".join('<span style="color:rgb{}">&#9632;</span>&nbsp;{}'.format(tuple(colour), name.replace("-", "&#8209;")) for name, colour in pairs)
 
 
 class LabelOverlay(Overlay):

@@ -13,6 +13,7 @@ import FreeCAD
 
 from . import compat, shapes
 from .errors import InvalidInput
+from .words import tr
 
 #: what the search for nodes and mesh faces leaves in the entry of a constraint
 _FOUND = (
@@ -262,7 +263,7 @@ def _with_losses_told(original):
         for entries in vars(self.member).values():
             for entry in entries if isinstance(entries, list) else ():
                 names = not_captured(entry["Object"], self.femmesh.owner)
-                lost = "the mesh does not capture {}".format(", ".join(names)) if names else loss(entry)
+                lost = tr("the mesh does not capture {}").format(", ".join(names)) if names else loss(entry)
                 if lost:
                     FreeCAD.Console.PrintWarning("{}: {}\n".format(entry["Object"].Label, lost))
 
@@ -280,18 +281,18 @@ def loss(entry):
     """What of a constraint's entry the mesh does not take, as a sentence; empty where it takes all."""
     for obj, name in references(entry["Object"]) if hasattr(entry["Object"], "References") else ():
         if name.startswith("Edge") and shapes.is_seam(obj.Shape, obj.Shape.getElement(name)):
-            return "{} is {}".format(name, shapes.SEAM)
+            return tr("{} is {}").format(name, tr(shapes.SEAM))
     for name in (name for name in _FOUND if name in entry):
         found = entry[name]
         if name in _TITLED:
             found = [part for _, there in found for part in there]
         if not found:
-            return "nothing of the mesh is where it acts"
+            return tr("nothing of the mesh is where it acts")
     if "NodeLoadTable" in entry:
         asked = float(compat.newtons(entry["Object"]))
         arrived = float(sum(load for _, loads in entry["NodeLoadTable"] for load in loads.values()))
         if abs(asked - arrived) > _FORCE_MISS * abs(asked):
-            return "only {:.4g} of {:.4g} N are where the mesh is".format(arrived, asked)
+            return tr("only {:.4g} of {:.4g} N are where the mesh is").format(arrived, asked)
     return ""
 
 
@@ -346,7 +347,7 @@ def _fill_sides(kind, mesh, member):
         return False
     slave, master = ([face for side in sides for face in side] for sides in found)
     if mesh.between_solids().intersection(slave).intersection(master):
-        raise InvalidInput("{}: the solids have common nodes where it acts; make the mesh with Interfaces = separate".format(constraint.Label))
+        raise InvalidInput(tr("{}: the solids have common nodes where it acts; make the mesh with Interfaces = separate").format(constraint.Label))
     sides = mesh.sides()
     member[kind + "SlaveFaces"], member[kind + "MasterFaces"] = ([list(sides[face]) for face in faces] for faces in (slave, master))
     return True

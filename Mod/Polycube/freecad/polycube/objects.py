@@ -6,9 +6,11 @@ import FreeCAD
 
 from . import cells, compat, fem_mesh, load_sets, option_table, refinements, shapes
 from .compat import part_of, set_part
+from .engine_words import told
 from .errors import InvalidInput
 from .result import as_runs
 from .stateless import Stateless
+from .words import tr
 
 EMPTY, CURRENT, OUTDATED = "Empty", "Up to date", "Out of date"
 
@@ -72,11 +74,11 @@ def set_mesh(obj, result, options, meshed_shape, mesh=None, asked=None):
     was started, where that may be a while ago.
     """
     mesh = mesh or fem_mesh.build(result)
-    warnings = list(result.report.get("warnings", []))
+    warnings = [told(line) for line in result.report.get("warnings", [])]
     obj.MeshedShape = meshed_shape
     analysis = analysis_of(obj)
     if not shape_is_meshed(obj):
-        warnings.append("the part has changed while it was meshed: make the mesh again")
+        warnings.append(tr("the part has changed while it was meshed: make the mesh again"))
     elif analysis:
         warnings += fem_mesh.add_constraint_groups(mesh, result, part_of(obj), analysis, GROUPS_ARE_ASKED)
     option_table.write(obj, options)
@@ -128,7 +130,7 @@ def _grouped_shape(obj):
     if not is_polycube(obj):
         return None
     if not cells.is_as_meshed(obj) or not shape_is_meshed(obj):
-        FreeCAD.Console.PrintWarning("{}: the part has changed since it was meshed, loads may get lost: make the mesh again\n".format(obj.Label))
+        FreeCAD.Console.PrintWarning(tr("{}: the part has changed since it was meshed, loads may get lost: make the mesh again").format(obj.Label) + "\n")
         return None
     return shapes.numbered_shape(part_of(obj))
 

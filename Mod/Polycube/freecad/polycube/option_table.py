@@ -9,6 +9,7 @@ import FreeCAD
 
 from . import engine
 from .errors import InvalidInput, did_you_mean
+from .words import noop, tr
 
 #: Names that FreeCAD users know from the Gmsh mesher.
 _FAMILIAR = {"size": "CharacteristicLengthMax", "order": "ElementOrder", "per_circle": "MeshSizeFromCurvature"}
@@ -24,10 +25,10 @@ _TRUTHS = {"true": True, "false": False}
 _UNITS = {"mm": "App::PropertyLength", "degrees": "App::PropertyAngle"}
 #: What a quantity has to be for an option of this unit; the value that FreeCAD keeps inside is in the option's unit then.
 _DIMENSIONS = {
-    "mm": (FreeCAD.Units.Length, "a length"),
-    "degrees": (FreeCAD.Units.Angle, "an angle"),
-    "s": (FreeCAD.Units.TimeSpan, "a time"),
-    "": (FreeCAD.Units.Unit(), "a plain number"),
+    "mm": (FreeCAD.Units.Length, noop("a length")),
+    "degrees": (FreeCAD.Units.Angle, noop("an angle")),
+    "s": (FreeCAD.Units.TimeSpan, noop("a time")),
+    "": (FreeCAD.Units.Unit(), noop("a plain number")),
 }
 
 
@@ -57,7 +58,7 @@ def plain(options):
     given = {name: value for name, value in options.items() if value is not None}
     for name in given:
         if name not in known:
-            raise InvalidInput("unknown option '{}'{}".format(name, did_you_mean(name, known, "; options are ")))
+            raise InvalidInput(tr("unknown option '{}'{}").format(name, did_you_mean(name, known, tr("; options are "))))
     return {name: _plain(known[name], value) for name, value in given.items()}
 
 
@@ -87,17 +88,17 @@ def _plain(option, value):
         raise
     except (TypeError, ValueError, AttributeError, OverflowError):
         wanted = {
-            "labels": 'faces with their axes such as {"Face3": "+X"}',
-            "sizes": 'faces or axes with their sizes such as {"Face3": 0.5, "X": 2}',
-            "refine": 'faces, edges or vertices with their levels such as {"Face7": 2, "Edge3": 1}',
-            "bias": 'edges with ratios such as {"Edge4": 2.0}',
-            "divisions": 'edges or pairs of faces with their elements such as {"Edge4": 6, "Face1-Face2": "3.."}',
-            "faces": 'faces such as ["Face3", "Face7"]',
-            "frame": "a pair of directions such as ((1, 0, 0), (0, 1, 0))",
-            "bool": "True or False",
-            "string": "one of " + ", ".join(option["choices"]),
+            "labels": tr('faces with their axes such as {"Face3": "+X"}'),
+            "sizes": tr('faces or axes with their sizes such as {"Face3": 0.5, "X": 2}'),
+            "refine": tr('faces, edges or vertices with their levels such as {"Face7": 2, "Edge3": 1}'),
+            "bias": tr('edges with ratios such as {"Edge4": 2.0}'),
+            "divisions": tr('edges or pairs of faces with their elements such as {"Edge4": 6, "Face1-Face2": "3.."}'),
+            "faces": tr('faces such as ["Face3", "Face7"]'),
+            "frame": tr("a pair of directions such as ((1, 0, 0), (0, 1, 0))"),
+            "bool": tr("True or False"),
+            "string": tr("one of {}").format(", ".join(option["choices"])),
         }
-        raise InvalidInput("{} is not {}".format(name, wanted.get(kind, "a number"))) from None
+        raise InvalidInput(tr("{} is not {}").format(name, wanted.get(kind, tr("a number")))) from None
 
 
 def _by_name(option, values):
@@ -106,7 +107,7 @@ def _by_name(option, values):
     for what, value in values.items():
         face = _face(what)
         if face in found:
-            raise InvalidInput("{}: {} is given twice".format(option, face))
+            raise InvalidInput(tr("{}: {} is given twice").format(option, face))
         found[face] = value
     return found
 
@@ -126,7 +127,7 @@ def _number(option, value):
         dimension, meaning = _DIMENSIONS[option["unit"]]
         # without a unit it is a number like any other
         if value.Unit not in (dimension, FreeCAD.Units.Unit()):
-            raise InvalidInput("{}: {} is not {}".format(option["name"], value, meaning))
+            raise InvalidInput(tr("{}: {} is not {}").format(option["name"], value, tr(meaning)))
         value = value.Value
     if option["type"] == "bool":
         value = _TRUTHS.get(value, value) if isinstance(value, str) else value
@@ -263,6 +264,6 @@ def _labels(lines):
     for line in lines:
         face, separator, axis = line.replace(" ", "").partition("=")
         if not separator:
-            raise InvalidInput("label '{}' is not of the form Face3=+X".format(line))
+            raise InvalidInput(tr("label '{}' is not of the form Face3=+X").format(line))
         labels[face] = axis
     return labels

@@ -6,6 +6,7 @@ import FreeCAD
 
 from . import option_table
 from .errors import InvalidInput
+from .words import tr
 
 #: Where the entries are kept; that of the mesher is read by engine.py.
 GROUP = "User parameter:BaseApp/Preferences/Mod/Polycube"
@@ -26,7 +27,7 @@ def folder():
     """Where jobs are, None for the system's place for temporary files. InvalidInput where it is none."""
     given = os.path.expanduser(_group().GetString("TemporaryFolder", ""))
     if given and not os.path.isdir(given):
-        raise InvalidInput("the preference for temporary files names no folder: {}".format(given))
+        raise InvalidInput(tr("the preference for temporary files names no folder: {}").format(given))
     return given or None
 
 

@@ -37,13 +37,11 @@ class PutTogether:
         document = self.compound.Document
         if objects.meshes_of(self.compound) or any(not one.isDerivedFrom("App::Part") for one in self.compound.InList):
             return
-        links = [member for member in self.compound.Links if member not in [part for part, _ in self._parts]]
-        # FreeCAD 1.0 fails to undo the making of a link into a container.
-        if document.UndoNames[:1] == [self._step] and not links:
+        if document.UndoNames[:1] == [self._step]:
             document.undo()
         else:
             with api.transaction(document, tr("Delete")):
-                for one in [self.compound, *links]:
+                for one in [self.compound, *filter(shapes.shown_by, self.compound.Links)]:
                     document.removeObject(one.Name)
         for part, was_shown in self._parts:
             if shapes.exists(part):

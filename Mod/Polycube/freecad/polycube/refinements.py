@@ -30,6 +30,7 @@ _SIZE = ("App::PropertyLength", "Size", 0.0, "Edge length")
 _LEVELS = ("App::PropertyIntegerConstraint", "Levels", (1, 1, _MOST_LEVELS, 1), "Times that elements are divided into three along every edge")
 _AXIS = ("App::PropertyEnumeration", "Axis", _AXES, "Axis")
 _FACES, _EDGES, _ANY = ("Face",), ("Edge",), ("Face", "Edge", "Vertex", "Solid")
+_TAKEN = {"Face": noop("face"), "Edge": noop("edge"), "Vertex": noop("vertex"), "Solid": noop("solid")}
 KINDS = {
     kind.name: kind
     for kind in (
@@ -48,7 +49,7 @@ KINDS = {
 def make(mesh, kind, places, value=None):
     """A new refinement of a mesh object. places: names such as Face3 on the mesh's part. Call inside a transaction. Raises InvalidInput."""
     if kind not in KINDS:
-        raise InvalidInput("there is no refinement '{}'{}".format(kind, did_you_mean(kind, KINDS, "; there are ")))
+        raise InvalidInput(tr("there is no refinement '{}'{}").format(kind, did_you_mean(kind, KINDS, tr("; there are "))))
     solid = shapes.solid_object(compat.part_of(mesh))
     check(solid, KINDS[kind], list(places), value)
     obj = mesh.Document.addObject("Fem::FeaturePython", "Refinement")
@@ -137,13 +138,13 @@ def _checked(kind, value):
         try:
             size = option_table.plain({"size": value})["size"]
         except InvalidInput:
-            raise InvalidInput("{}: '{}' is not a length".format(kind.title, value)) from None
+            raise InvalidInput(tr("{}: '{}' is not a length").format(tr(kind.title), value)) from None
         if not size > 0:
-            raise InvalidInput("{}: the size must be greater than 0".format(kind.title))
+            raise InvalidInput(tr("{}: the size must be greater than 0").format(tr(kind.title)))
         return size
     if kind.option == "labels":
         if value not in _AXES:
-            raise InvalidInput("{}: '{}' is not one of {}".format(kind.title, value, ", ".join(_AXES)))
+            raise InvalidInput(tr("{}: '{}' is not one of {}").format(tr(kind.title), value, ", ".join(_AXES)))
         return value
     if kind.option == "refine":
         try:
@@ -151,7 +152,7 @@ def _checked(kind, value):
         except (TypeError, ValueError):
             levels = 0
         if levels != float(value if levels else 0) or not 1 <= levels <= _MOST_LEVELS:
-            raise InvalidInput("{}: '{}' is not a whole number from 1 to {}".format(kind.title, value, _MOST_LEVELS))
+            raise InvalidInput(tr("{}: '{}' is not a whole number from 1 to {}").format(tr(kind.title), value, _MOST_LEVELS))
         return levels
     if kind.option == "bias":
         try:
@@ -159,29 +160,30 @@ def _checked(kind, value):
         except (TypeError, ValueError):
             ratio = math.nan
         if not (ratio > 0 and math.isfinite(ratio)):
-            raise InvalidInput("{}: '{}' is not a ratio, a number greater than 0".format(kind.title, value))
+            raise InvalidInput(tr("{}: '{}' is not a ratio, a number greater than 0").format(tr(kind.title), value))
         return ratio
     text = str(value).replace(" ", "")
     low, dots, high = text.partition("..")
     if not all(part.isdigit() and int(part) > 0 for part in (low, high) if part) or not (low or high) or (not dots and not low):
-        raise InvalidInput("{}: '{}' is not a number of elements: 6, 3.., ..4 or 2..5".format(kind.title, value))
+        raise InvalidInput(tr("{}: '{}' is not a number of elements: 6, 3.., ..4 or 2..5").format(tr(kind.title), value))
     return text
 
 
 def check(solid, kind, places, value=None):
     """Raises InvalidInput where the solid has not these places, or the kind cannot be there."""
-    wanted = " or ".join(filter(None, [", ".join(kind.takes[:-1]), kind.takes[-1]])).lower()
+    words = [tr(_TAKEN[one]) for one in kind.takes]
+    wanted = tr(" or ").join(filter(None, [", ".join(words[:-1]), words[-1]]))
     if not places:
-        raise InvalidInput("{}: no {} is chosen".format(kind.title, wanted))
+        raise InvalidInput(tr("{}: no {} is chosen").format(tr(kind.title), wanted))
     for name in places:
         if name.rstrip("0123456789") not in kind.takes:
-            raise InvalidInput("{}: {} is no {}".format(kind.title, name, wanted))
+            raise InvalidInput(tr("{}: {} is no {}").format(tr(kind.title), name, wanted))
         if not fem_mesh.exists(solid.Shape, name):
-            raise InvalidInput("{}: {} has no {} any more".format(kind.title, solid.Label, name))
+            raise InvalidInput(tr("{}: {} has no {} any more").format(tr(kind.title), solid.Label, name))
         if kind.name == "bore" and not _circle(solid.Shape, name):
-            raise InvalidInput("{}: {} has no full circle".format(kind.title, name))
+            raise InvalidInput(tr("{}: {} has no full circle").format(tr(kind.title), name))
     if kind.count and len(places) != kind.count:
-        raise InvalidInput("{}: {} {}s are needed, not {}".format(kind.title, kind.count, wanted, len(places)))
+        raise InvalidInput(tr("{}: {} faces are needed, not {}").format(tr(kind.title), kind.count, len(places)))
     if value is not None:
         _checked(kind, value)
 
@@ -198,14 +200,14 @@ def fault(obj):
     """What is wrong with a refinement, in a line; empty if nothing is."""
     mesh = mesh_of(obj)
     if mesh is None:
-        return "it belongs to no mesh: drop it onto one in the tree"
+        return tr("it belongs to no mesh: drop it onto one in the tree")
     part = compat.part_of(mesh)
     if part is None:
-        return "the mesh has no part"
+        return tr("the mesh has no part")
     try:
         solid = shapes.solid_object(part)
         if any(owner != solid for owner, _ in obj.References):
-            return "it refers to another part than {}".format(solid.Label)
+            return tr("it refers to another part than {}").format(solid.Label)
         kind = kind_of(obj)
         check(solid, kind, places_of(obj), getattr(obj, kind.value[1]) if kind.value else None)
     except InvalidInput as error:

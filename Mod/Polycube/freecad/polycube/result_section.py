@@ -67,6 +67,9 @@ class ResultSection(Section):
         self.worst.horizontalHeader().setStretchLastSection(True)
         self._lay_out()
         self.measure_box.currentIndexChanged.connect(lambda _: self._soon(self._measure_changed))
+        # One can be seen at a time.
+        self.colours.toggled.connect(lambda on: on and self.blocks.setChecked(False))
+        self.blocks.toggled.connect(lambda on: on and self.colours.setChecked(False))
         self.colours.toggled.connect(lambda _: self._soon(self._colour))
         self.blocks.toggled.connect(lambda _: self._soon(self._isolate))
         self.below.toggled.connect(lambda _: self._soon(self._isolate))

@@ -8,6 +8,7 @@ from PySide import QtCore
 from . import job
 from .errors import Cancelled, PolycubeError
 from .session import request
+from .words import tr
 
 #: milliseconds between two looks at the clock
 _WATCH = 100
@@ -115,7 +116,7 @@ class Run(Child):
         made = error = None
         try:
             if self._reason:
-                raise Cancelled(self._reason)
+                raise Cancelled(tr(self._reason))
             made = self.job.finish(status, self.last_words())
         except PolycubeError as caught:
             error = caught
@@ -158,7 +159,7 @@ class LiveSession(Child):
         """What a Request does when it is killed."""
         if asked in self._waiting:
             self._waiting.remove(asked)
-            asked.end(None, Cancelled(asked.reason))
+            asked.end(None, Cancelled(tr(asked.reason)))
         elif asked is self._now:
             self._given_up = time.monotonic()
             with open(os.path.join(asked.folder, "enough"), "w", encoding="ascii"):
@@ -185,7 +186,7 @@ class LiveSession(Child):
         made = error = None
         try:
             if asked.reason:
-                raise Cancelled(asked.reason)
+                raise Cancelled(tr(asked.reason))
             made = job.outcome(asked.folder, asked.what, status, self.last_words(), self.job.stage)
         except PolycubeError as caught:
             error = caught
@@ -210,7 +211,7 @@ class LiveSession(Child):
         self.job.close()
         while self._waiting:
             asked = self._waiting.pop(0)
-            asked.end(None, Cancelled(asked.reason or "cancelled"))
+            asked.end(None, Cancelled(tr(asked.reason or "cancelled")))
 
 
 class Request:

@@ -6,6 +6,7 @@ import threading
 
 from . import job
 from .errors import Cancelled, InvalidInput
+from .words import tr
 
 #: Of these only one can say how fine a mesh is.
 _FINENESS = ("size", "hexes", "coarsest")
@@ -73,7 +74,7 @@ class Session:
 
     def _make(self, what, options, progress, log, cancel):
         if not self._at_work.acquire(blocking=False):
-            raise InvalidInput("the session is at work in another thread")
+            raise InvalidInput(tr("the session is at work in another thread"))
         try:
             return self._made(what, options, progress, log, cancel)
         finally:
@@ -83,7 +84,7 @@ class Session:
         from . import option_table
 
         if self._closed:
-            raise InvalidInput("the session is closed")
+            raise InvalidInput(tr("the session is closed"))
         more = option_table.plain(options)
         given = {name: value for name, value in self._options.items() if not (name in _FINENESS and set(more) & set(_FINENESS))}
         options = {**given, **more}
@@ -126,7 +127,7 @@ class Session:
             if watcher.error:
                 raise watcher.error
             if watcher.reason:
-                raise Cancelled(watcher.reason)
+                raise Cancelled(tr(watcher.reason))
             return job.outcome(folder, what, status or 1, last_words, stage)
         return job.outcome(folder, what, status)
 

@@ -1,10 +1,13 @@
 """The shape of a document object, or of several: where it stands, has it solids, what are its entities called, and is it still the one that was meshed?"""
 
 from .errors import InvalidInput
+from .words import noop, tr
 
 RELATIVE_TOLERANCE = 1e-7
+#: type of the proxies of likenesses
+LIKENESS = "Polycube::Likeness"
 #: what is wrong with a seam
-SEAM = "a seam, where a round face closes: the mesh has nodes there by chance only"
+SEAM = noop("a seam, where a round face closes: the mesh has nodes there by chance only")
 
 
 def shape_of(thing, beside=None):
@@ -17,16 +20,16 @@ def shape_of(thing, beside=None):
 
     if isinstance(thing, (list, tuple)):
         if not thing:
-            raise InvalidInput("the list of parts is empty")
+            raise InvalidInput(tr("the list of parts is empty"))
         found = [shape_of(one, beside) for one in thing]
         return found[0] if len(found) == 1 else Part.makeCompound(found)
     if not hasattr(thing, "Document"):
         if not isinstance(thing, Part.Shape):
-            raise InvalidInput("{} has no shape".format(type(thing).__name__))
+            raise InvalidInput(tr("{} has no shape").format(type(thing).__name__))
         return thing
     inside = solid_objects(thing)
     if not inside:
-        raise InvalidInput("{} has no solid inside".format(thing.Label))
+        raise InvalidInput(tr("{} has no solid inside").format(thing.Label))
     found = [_standing_shape(part, beside) for part in inside]
     return found[0] if len(found) == 1 else Part.makeCompound(found)
 
@@ -40,6 +43,14 @@ def solid_labels(thing):
     return [label for obj in solid_objects(thing) for label in _labels_of(obj)]
 
 
+def shown_by(member):
+    """The object in containers that a member of a compound shows where it stands, by a likeness or, in older documents, by a link into its container; or None."""
+    if getattr(getattr(member, "Proxy", None), "Type", "") == LIKENESS:
+        return member.Source
+    is_link = member.isDerivedFrom("App::Link") and isinstance(member.LinkedObject, tuple) and member.Placement.isIdentity()
+    return member.getLinkedObject() if is_link else None
+
+
 def _labels_of(obj):
     import Part
 
@@ -50,9 +61,7 @@ def _labels_of(obj):
         for solid in shape.Solids if shape else ():
             number = number_of(whole, solid)
             if number:
-                # A link into a container, as compounds of ours have, stands for what is there.
-                inside = isinstance(getattr(member, "LinkedObject", None), tuple)
-                labels[number - 1] = (member.getLinkedObject() if inside else member).Label
+                labels[number - 1] = (shown_by(member) or member).Label
     return labels
 
 
@@ -68,7 +77,7 @@ def _standing_shape(part, beside):
         return part.Shape
     shape = Part.getShape(part)
     if shape.isNull() and not hasattr(part, "Shape"):
-        raise InvalidInput("{} has no shape".format(part.Label))
+        raise InvalidInput(tr("{} has no shape").format(part.Label))
     if not shape.isNull():
         shape.Placement = placement.multiply(shape.Placement)
     return shape
@@ -89,6 +98,12 @@ def container_of(obj):
     around = obj.getParentGeoFeatureGroup() or next((parent for parent in obj.InList if obj in _elements(parent)), None)
     group = None if around else obj.getParentGroup()
     return container_of(group) if group else around
+
+
+def containers_of(obj):
+    """All containers that the object stands in, the innermost first."""
+    around = container_of(obj)
+    return [around, *containers_of(around)] if around else []
 
 
 def standing(obj):
@@ -251,15 +266,15 @@ def _elements(obj):
 def check_solid(shape):
     """Raises InvalidInput unless the shape has valid solids with a volume, or faces only, which the engine sews. It checks again and more closely."""
     if shape.isNull() or not shape.Faces:
-        raise InvalidInput("the shape is empty")
+        raise InvalidInput(tr("the shape is empty"))
     if not shape.Solids:
         return
     for number, solid in enumerate(shape.Solids, 1):
-        name = "the solid" if len(shape.Solids) == 1 else "Solid{}".format(number)
+        name = tr("the solid") if len(shape.Solids) == 1 else "Solid{}".format(number)
         if not solid.isValid():
-            raise InvalidInput("{} is not valid; Part > Check geometry shows why".format(name))
+            raise InvalidInput(tr("{} is not valid; Part > Check geometry shows why").format(name))
         if not solid.Volume > 1e-12 * solid.BoundBox.DiagonalLength**3:
-            raise InvalidInput("{} has no volume".format(name))
+            raise InvalidInput(tr("{} has no volume").format(name))
 
 
 def signature(shape):

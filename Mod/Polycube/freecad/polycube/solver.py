@@ -79,7 +79,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
         tools.load_results()
         solution.results = [obj for obj in analysis.Group if obj.isDerivedFrom("Fem::FemResultObject") and obj not in before]
         if not solution.results and tools.solver.AnalysisType != "check":
-            raise SolverFailed("CalculiX wrote no results")
+            raise SolverFailed(tr("CalculiX wrote no results"))
         if solution.results and solution.mesh and tools.solver.AnalysisType in _WITH_REACTIONS:
             solution.stress_error = estimate.stress_error(solution.path, solution.result, solution.mesh)
     if solution.stress_error and solution.stress_error.line():
@@ -92,21 +92,21 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
 def prepared(analysis, solver, folder):
     """FreeCAD's tools for CalculiX, with everything there that a run needs; InvalidInput says what is not."""
     if not (hasattr(analysis, "isDerivedFrom") and analysis.isDerivedFrom("Fem::FemAnalysis")):
-        raise InvalidInput("an analysis is needed")
+        raise InvalidInput(tr("an analysis is needed"))
     try:
         there = ccx.find()
-    except RuntimeError as error:
-        raise InvalidInput(str(error)) from None
+    except RuntimeError:
+        raise InvalidInput(tr(ccx.NAMES_NONE).format(os.environ["POLYCUBE_CCX"])) from None
     if not there:
-        raise InvalidInput(ccx.MISSING)
+        raise InvalidInput(tr(ccx.MISSING))
     solvers = [member for member in analysis.Group if member.isDerivedFrom("Fem::FemSolverObject")]
     ours = [member for member in solvers if getattr(getattr(member, "Proxy", None), "Type", "") == "Fem::SolverCcxTools"]
     if solver is None:
         if len(ours) != 1:
-            raise InvalidInput("{} has {} solvers of the kind CalculiX Standard; one is needed".format(analysis.Label, len(ours) or "no"))
+            raise InvalidInput(tr("{} has {} solvers of the kind CalculiX Standard; one is needed").format(analysis.Label, len(ours) or tr("no")))
         (solver,) = ours
     elif solver not in ours:
-        raise InvalidInput("{} is no solver of the kind CalculiX Standard in {}".format(getattr(solver, "Label", solver), analysis.Label))
+        raise InvalidInput(tr("{} is no solver of the kind CalculiX Standard in {}").format(getattr(solver, "Label", solver), analysis.Label))
     _check_references(analysis)
     from femtools import ccxtools
 
@@ -140,7 +140,7 @@ def write(tools, element=None):
         if hasattr(getter.member, "cons_" + kind):
             setattr(getter.member, "cons_" + kind, [])
     if objects.is_polycube(tools.mesh) and not cells.is_as_meshed(tools.mesh):
-        raise InvalidInput("{}: its cells are not those of its properties; make it again".format(tools.mesh.Label))
+        raise InvalidInput(tr("{}: its cells are not those of its properties; make it again").format(tools.mesh.Label))
     if mesh:
         _check_captured(tools.analysis, mesh.owner)
     getter.get_mesh_sets()
@@ -151,7 +151,7 @@ def write(tools, element=None):
     files = writer.FemInputWriterCcx(tools.analysis, tools.solver, tools.mesh, getter.member, tools.working_dir, getter.mat_geo_sets)
     tools.inp_file_name = path = files.write_solver_input()
     if not path:
-        raise SolverFailed("FreeCAD could not write the input file")
+        raise SolverFailed(tr("FreeCAD could not write the input file"))
     chosen = ""
     if mesh:
         element = element or objects.element_of(mesh.owner)
@@ -160,7 +160,7 @@ def write(tools, element=None):
         notes += [line] if line else []
         _change(files.femmesh_file, lambda text: deck.set_types(text, chosen, others))
     elif element:
-        raise InvalidInput("{}: elements can be chosen for meshes of Polycube only".format(tools.mesh.Label))
+        raise InvalidInput(tr("{}: elements can be chosen for meshes of Polycube only").format(tools.mesh.Label))
     _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
     solution = Solution(path, chosen, notes)
     solution.mesh, solution.springs = mesh, any(kind == "spring" for kind, _ in special)
@@ -192,7 +192,7 @@ def _not_written(analysis, kind_of_analysis, member, special, mesh):
     for constraint in analysis.Group:
         if constraint.isDerivedFrom("Fem::Constraint") and constraint.Name not in written:
             kind = fem_mesh.special_kind(constraint)
-            notes.append("{}: {}".format(constraint.Label, "is written for meshes of Polycube only" if kind and not mesh else "means nothing to CalculiX"))
+            notes.append("{}: {}".format(constraint.Label, tr("is written for meshes of Polycube only") if kind and not mesh else tr("means nothing to CalculiX")))
     for name in sorted(vars(member)):
         if name.startswith("cons_") and getattr(member, name):
             try:
@@ -200,10 +200,10 @@ def _not_written(analysis, kind_of_analysis, member, special, mesh):
             except (ImportError, AttributeError):
                 continue
             if analyses != "all" and kind_of_analysis not in analyses:
-                notes += ["{}: has no effect in an analysis of type {}".format(entry["Object"].Label, kind_of_analysis) for entry in getattr(member, name)]
+                notes += [tr("{}: has no effect in an analysis of type {}").format(entry["Object"].Label, kind_of_analysis) for entry in getattr(member, name)]
     for kind, constraint in special:
         if kind_of_analysis not in special_loads.ANALYSES.get(kind, (kind_of_analysis,)):
-            notes.append("{}: has no effect in an analysis of type {}".format(constraint.Label, kind_of_analysis))
+            notes.append(tr("{}: has no effect in an analysis of type {}").format(constraint.Label, kind_of_analysis))
     return notes
 
 
@@ -215,16 +215,16 @@ def _check_references(analysis):
         if constraint.isDerivedFrom("Fem::ConstraintForce"):
             kinds = {name.rstrip("0123456789") for _, names in constraint.References for name in names}
             if len(kinds) > 1 or not kinds <= {"Face", "Edge", "Vertex"}:
-                raise InvalidInput("{}: a force is on faces, on edges or on vertices".format(constraint.Label))
+                raise InvalidInput(tr("{}: a force is on faces, on edges or on vertices").format(constraint.Label))
         for obj, names in getattr(constraint, "References", []):
             for name in filter(None, names):  # no name is the whole part
                 shape = getattr(obj, "Shape", None)
                 if not shape or not fem_mesh.exists(shape, name):
-                    raise InvalidInput("{}: {} has no {}".format(constraint.Label, obj.Label, name))
+                    raise InvalidInput(tr("{}: {} has no {}").format(constraint.Label, obj.Label, name))
                 if name.startswith("Edge") and shape.getElement(name).Length < 1e-7:  # OpenCASCADE's Precision::Confusion
-                    raise InvalidInput("{}: {} of {} is a point".format(constraint.Label, name, obj.Label))
+                    raise InvalidInput(tr("{}: {} of {} is a point").format(constraint.Label, name, obj.Label))
                 if name.startswith("Edge") and shapes.is_seam(shape, shape.getElement(name)):
-                    raise InvalidInput("{}: {} of {} is {}".format(constraint.Label, name, obj.Label, shapes.SEAM))
+                    raise InvalidInput(tr("{}: {} of {} is {}").format(constraint.Label, name, obj.Label, tr(shapes.SEAM)))
 
 
 def _check_captured(analysis, obj):
@@ -233,7 +233,7 @@ def _check_captured(analysis, obj):
         if constraint.isDerivedFrom("Fem::Constraint"):
             found = not_captured(constraint, obj)
             if found:
-                raise InvalidInput("{}: the mesh does not capture {}; make it again".format(constraint.Label, ", ".join(found)))
+                raise InvalidInput(tr("{}: the mesh does not capture {}; make it again").format(constraint.Label, ", ".join(found)))
 
 
 def _check_found(entries):
@@ -271,7 +271,7 @@ def _cards(tools, mesh, member, entries, special):
         special_loads.write(kind, mesh, constraint, cards)
         on = {int(line.split(",")[0]) for line in cards.step[before:] if not line.startswith("*")} if kind in ("gear", "pulley") else set()
         if turned & (on | (cards.supports if kind == "bearing" else set())):
-            raise InvalidInput("{}: shares nodes with a transform constraint".format(constraint.Label))
+            raise InvalidInput(tr("{}: shares nodes with a transform constraint").format(constraint.Label))
     cards.supports |= supports
     if cards.supports and tools.solver.AnalysisType in _WITH_REACTIONS:
         cards.model += ["*NSET,NSET=" + SUPPORTS, *("{},".format(node) for node in sorted(cards.supports))]
@@ -326,7 +326,7 @@ def run(solution, log=None, cancel=None):
     solution.seconds = time.monotonic() - started
     words = _error(lines)
     if words or status:
-        raise SolverFailed("CalculiX: " + (words or "it ended with status {}".format(status)))
+        raise SolverFailed("CalculiX: " + (words or tr("it ended with status {}").format(status)))
 
 
 def _lines(child, log, cancel):
@@ -348,7 +348,7 @@ def _lines(child, log, cancel):
         if cancel and time.monotonic() - asked >= _PATIENCE:
             asked = time.monotonic()
             if cancel():
-                raise Cancelled("cancelled")
+                raise Cancelled(tr("cancelled"))
         if line is None:
             return
         if line:

@@ -16,6 +16,7 @@ import FreeCAD
 from . import compat, shapes
 from .errors import InvalidInput
 from .load_sets import references
+from .words import tr
 
 #: below this share of its row a coefficient of an equation is rounding
 _ROUNDING = 1e-9
@@ -57,10 +58,10 @@ def _faces(mesh, constraint):
     for obj, name in references(constraint):
         elements = mesh.elements(obj.Shape.getElement(name), "Face") if name.startswith("Face") else ()
         if not elements:
-            raise InvalidInput("{}: the mesh has no faces on {} of {}".format(constraint.Label, name or "all", obj.Label))
+            raise InvalidInput(tr("{}: the mesh has no faces on {} of {}").format(constraint.Label, name or tr("all"), obj.Label))
         found += elements
     if not found:
-        raise InvalidInput("{}: it refers to nothing".format(constraint.Label))
+        raise InvalidInput(tr("{}: it refers to nothing").format(constraint.Label))
     return found
 
 
@@ -72,7 +73,7 @@ def _placement(mesh, constraint):
 def _axis(mesh, constraint):
     """(point, unit vector) of a round face's axis."""
     if constraint.Radius <= 0 or constraint.Axis.Length <= 0:
-        raise InvalidInput("{}: it needs a round face".format(constraint.Label))
+        raise InvalidInput(tr("{}: it needs a round face").format(constraint.Label))
     placement = _placement(mesh, constraint)
     return placement.multVec(constraint.BasePoint), placement.Rotation.multVec(constraint.Axis).normalize()
 
@@ -208,7 +209,7 @@ def _body_heat(mesh, constraint, cards):
     solids = [solid for obj, name in references(constraint) for solid in _solids(obj, name)]
     heated = {cell for solid in solids for cell in mesh.elements(solid, "Volume")} if solids else set(mesh.Volumes)
     if not heated:
-        raise InvalidInput("{}: the mesh has no cells in what it refers to".format(constraint.Label))
+        raise InvalidInput(tr("{}: the mesh has no cells in what it refers to").format(constraint.Label))
     volume = sum(solid.Volume for solid in solids) or mesh.part_volume
     for number, (density, cells) in enumerate(cards.materials):
         inside = sorted(heated if cells is None else heated.intersection(cells))
@@ -230,7 +231,7 @@ def _power(constraint, density, volume):
     if getattr(constraint, "Mode", "") == "Total Power":
         return compat.plain(constraint.TotalPower, "W") * 1e3 / volume
     if not density:
-        raise InvalidInput("{}: the material has no density".format(constraint.Label))
+        raise InvalidInput(tr("{}: the material has no density").format(constraint.Label))
     rate = constraint.DissipationRate if hasattr(constraint, "DissipationRate") else constraint.HeatSource
     return compat.plain(rate, "W/kg") * 1e6 * density
 

@@ -352,12 +352,13 @@ class MeshPanel:
     def _fail(self, error):
         """Says what went wrong, where, and what may help."""
         text = str(error)
+        if isinstance(error, StageFailed) and text.startswith(error.stage + ": "):
+            text = stage_words(error.stage) + text[len(error.stage) :]
         self.log(text, error=True)
         if isinstance(error, Cancelled):
             text = text[0].upper() + text[1:] + "."
         elif isinstance(error, StageFailed):
-            reason = text.split(": ", 1)[-1] if text.startswith(error.stage + ":") else text
-            text = tr("Refused: {}.").format("{}: {}".format(stage_words(error.stage), reason)) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
+            text = tr("Refused: {}.").format(text) + " " + tr(_TRY.get(error.stage, _TRY_ELSE))
             self.select(error.entities)
             self.look_at(error.entities)
             if self.part_exists():

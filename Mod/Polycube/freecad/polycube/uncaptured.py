@@ -1,6 +1,8 @@
 """What of an analysis a mesh of a part will not have, told before there is one: references to other parts, to what is gone, to seams and points."""
 
 from . import fem_mesh, shapes
+from .engine_words import told
+from .words import tr
 
 #: Constraints of FreeCAD's own types that act on all of the mesh.
 _OF_ALL = ("Fem::ConstraintInitialTemperature", "Fem::ConstraintPython")
@@ -34,9 +36,9 @@ def _materials(part, materials):
             numbers = fem_mesh.solids_of(part.part, obj, _listed(names))
             covered.update(numbers)
             if not numbers:
-                found.append("{}: {} is no solid of {}".format(material.Label, _what(obj, names), part.label))
+                found.append(tr("{}: {} is no solid of {}").format(material.Label, _what(obj, names), part.label))
     if materials:
-        found += ["Solid{} of {} has no material".format(number, part.label) for number in part.solids if number not in covered]
+        found += [tr("Solid{} of {} has no material").format(number, part.label) for number in part.solids if number not in covered]
     return found
 
 
@@ -46,7 +48,7 @@ def _listed(names):
 
 def _what(obj, names):
     names = ", ".join(filter(None, _listed(names)))
-    return "{} of {}".format(names, obj.Label) if names else obj.Label
+    return tr("{} of {}").format(names, obj.Label) if names else obj.Label
 
 
 class _Part:
@@ -63,7 +65,7 @@ class _Part:
         """Lines on what a constraint refers to."""
         references = getattr(constraint, "References", None)
         if references == [] and constraint.TypeId not in _OF_ALL:
-            yield "refers to nothing"
+            yield tr("refers to nothing")
         for obj, names in references or ():
             for name in filter(None, _listed(names)):  # no name is the whole object
                 line = self._lack(obj, name)
@@ -73,20 +75,20 @@ class _Part:
     def _lack(self, obj, name):
         shape = getattr(obj, "Shape", None)
         if not shape or shape.isNull():
-            return "{} is a container, choose {} of the solid inside".format(obj.Label, name)
+            return tr("{} is a container, choose {} of the solid inside").format(obj.Label, name)
         if not fem_mesh.exists(shape, name):
-            return "{} has no {} any more".format(obj.Label, name)
+            return tr("{} has no {} any more").format(obj.Label, name)
         kind = name.rstrip("0123456789")
         entity = shapes.entities(shape, kind)[int(name[len(kind) :]) - 1]
         own = shapes.names_in(self.part, obj, [name])
         if not own and not self._has_twin(entity):
-            return "{} is not of {}".format(_what(obj, name), self.label)
+            return tr("{} is not of {}").format(_what(obj, name), self.label)
         if entity.ShapeType == "Edge" and entity.Degenerated:
-            return "{} is a point".format(_what(obj, name))
+            return tr("{} is a point").format(_what(obj, name))
         if entity.ShapeType == "Edge" and shapes.is_seam(shape, entity):
-            return "{} is {}".format(_what(obj, name), shapes.SEAM)
+            return tr("{} is {}").format(_what(obj, name), tr(shapes.SEAM))
         lost = next((self._lost[one] for one in own if one in self._lost), None)
-        return "{} will have no mesh edges: {}".format(_what(obj, name), lost) if lost else None
+        return tr("{} will have no mesh edges: {}").format(_what(obj, name), told(lost)) if lost else None
 
     def _has_twin(self, entity):
         """Whether the part has an entity where another object has this one: FreeCAD's search finds its nodes."""

@@ -10,7 +10,7 @@ from . import resources
 
 
 def noop(text):
-    """Marks text of a table for translation; tr() translates it where it is shown."""
+    """Marks text of a table, or a tuple of texts, for translation; tr() translates it where it is shown."""
     return text
 
 

@@ -1000,6 +1000,10 @@
       <translation>Zellen bleiben umgestülpt nach {} Versuchen</translation>
     </message>
     <message>
+      <source>cells stay flat</source>
+      <translation>Zellen bleiben flach</translation>
+    </message>
+    <message>
       <source>cells without positive Jacobian</source>
       <translation>Zellen ohne positive Jacobi-Determinante</translation>
     </message>

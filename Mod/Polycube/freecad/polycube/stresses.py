@@ -54,8 +54,9 @@ def recover(path, mesh, materials):
         return None
     with open(base + ".dat", "w", encoding="utf-8") as file:
         file.write(rest)
-    nodes = numpy.array(sorted(mesh.Nodes))
-    points = _places(mesh)
+    places = mesh.Nodes
+    nodes = numpy.array(sorted(places))
+    points = numpy.array([places[node][:] for node in nodes.tolist()])
     volumes = numpy.array(mesh.Volumes)
     cells = numpy.searchsorted(nodes, numpy.array([mesh.getElementNodes(volume) for volume in mesh.Volumes])[:, _ORDER])
     regions = _regions(mesh, volumes, materials)
@@ -67,12 +68,12 @@ def recover(path, mesh, materials):
             return None
         *at_nodes, of_cells = recovery.recovered(points, cells, samples, regions, mirrors)
         found.append(at_nodes)
-    with open(base + ".frd", encoding="ascii", errors="replace") as file:
+    with open(base + ".frd", encoding="latin-1") as file:
         lines = file.readlines()
     values = _mixed(lines, nodes, found)
     if values is None:
         return None
-    with open(base + ".frd", "w", encoding="ascii") as file:
+    with open(base + ".frd", "w", encoding="latin-1") as file:
         file.writelines(lines)
     return Recovered(nodes, points, cells, samples, values, found[-1][1], of_cells)
 
@@ -119,13 +120,6 @@ def _by_cell(rows, volumes):
         samples = rows[first[these][:, None] + numpy.arange(points)][:, :, 2:][:, :, _AS_IN_RESULTS]
         found[these] = recovery.at_superconvergent(samples)
     return found
-
-
-def _places(mesh):
-    import numpy
-
-    places = mesh.Nodes
-    return numpy.array([places[node][:] for node in sorted(places)])
 
 
 def _regions(mesh, volumes, materials):

@@ -15,9 +15,9 @@ from . import balance
 
 #: Guess: weight against quadratic and cubic terms, a share of a sample's: what samples do not tell apart is left out. Linear stresses are reproduced in any case.
 _RIDGE = {2: 1e-10, 3: 1e-6}
-#: Measured: share of the samples' size by which they miss the polynomials where these are right, and where they are not to be used. On smooth fields it is
-#: below the first, on meshes that show them: a tube with four cells through its wall 0.009; at clamped edges and corners that point inwards above the second:
-#: an L 0.06 to 0.09, a step in a shaft 0.15, the demo's bracket 0.13 to 0.23.
+#: Measured: share of the samples' size by which they miss the polynomials, where these are right and where they are not to be used. On the demo's bracket (9,795
+#: nodes, against 64,856) recovered stresses have half the error of CalculiX's below the first, the same between, and none less above the second. A tube with
+#: four cells through its wall has 0.009; clamped edges and corners that point inwards of an L 0.06 to 0.09, a step in a shaft 0.15, the bracket 0.13 to 0.23.
 _MISFIT = (0.02, 0.04)
 #: exponents of the terms of a polynomial in three directions, of third degree
 _POWERS = sorted((powers for powers in itertools.product(range(4), repeat=3) if sum(powers) <= 3), key=sum)

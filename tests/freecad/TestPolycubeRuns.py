@@ -108,6 +108,9 @@ class Elements(solve_tests.SolveTest):
         self.document = ccx_cantilever_faceload.setup()
         solution = polycube.solve(self.document.Analysis, folder=self.folder)
         self.assertEqual((solution.element, solution.notes), ("", []))
+        self.assertIsNone(solution.recovered)
+        with self.assertRaisesRegex(polycube.InvalidInput, "stresses are recovered on meshes of Polycube only$"):
+            polycube.solve(self.document.Analysis, folder=self.folder, stresses="recovered")
         self.assertAlmostEqual(min(vector.z for vector in solution.result.DisplacementVectors), -86.93, delta=0.05)
 
 

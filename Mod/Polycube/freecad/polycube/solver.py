@@ -151,6 +151,8 @@ def write(tools, element=None, stresses=None):
     from femsolver.calculix import writer
     from femtools import membertools
 
+    if stresses not in (None, *stresses_of.KINDS):
+        raise InvalidInput("stresses are {}, not {}".format(" or ".join(stresses_of.KINDS), stresses))
     getter = meshsetsgetter.MeshSetsGetter(tools.analysis, tools.solver, tools.mesh, membertools.AnalysisMember(tools.analysis))
     mesh = getter.femmesh if isinstance(getter.femmesh, GroupedMesh) else None
     special = _special(tools.analysis) if mesh else []
@@ -180,6 +182,8 @@ def write(tools, element=None, stresses=None):
         _change(files.femmesh_file, lambda text: deck.set_types(text, chosen, others))
     elif element:
         raise InvalidInput("{}: elements can be chosen for meshes of Polycube only".format(tools.mesh.Label))
+    elif stresses == stresses_of.RECOVERED:
+        raise InvalidInput("{}: stresses are recovered on meshes of Polycube only".format(tools.mesh.Label))
     cards.step += stresses_of.CARDS if recovers else ()
     _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
     solution = Solution(path, chosen, notes)
@@ -205,8 +209,6 @@ def _stiffness(member, mesh):
 
 def _recovers(tools, member, stresses):
     """Whether stresses are recovered: of linear runs that have some."""
-    if stresses not in stresses_of.KINDS:
-        raise InvalidInput("stresses are {}, not {}".format(" or ".join(stresses_of.KINDS), stresses))
     linear = tools.solver.GeometricalNonlinearity != "nonlinear" and not member.mats_nonlinear
     return stresses == stresses_of.RECOVERED and linear and tools.solver.AnalysisType in _WITH_REACTIONS
 

@@ -1212,6 +1212,10 @@
       <translation>Spannungen unterscheiden sich von Zelle zu Zelle am meisten, und ein feineres Netz ändert sie am meisten, an {}</translation>
     </message>
     <message>
+      <source>stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu</source>
+      <translation>Spannungen in den Zellen weichen um etwa {} % in der Energie ab, nach der Schätzung von Zienkiewicz und Zhu</translation>
+    </message>
+    <message>
       <source>heat flux</source>
       <translation>Wärmestrom</translation>
     </message>
@@ -1984,6 +1988,10 @@
       <translation>{} ist kein Löser der Art CalculiX Standard in {}</translation>
     </message>
     <message>
+      <source>stresses are {} or {}, not {}</source>
+      <translation>Spannungen sind {} oder {}, nicht {}</translation>
+    </message>
+    <message>
       <source>{}: its cells are not those of its properties; make it again</source>
       <translation>{}: seine Zellen sind nicht die seiner Eigenschaften; machen Sie es noch einmal</translation>
     </message>
@@ -1994,6 +2002,10 @@
     <message>
       <source>{}: elements can be chosen for meshes of Polycube only</source>
       <translation>{}: Elemente sind nur für Netze von Polycube wählbar</translation>
+    </message>
+    <message>
+      <source>{}: stresses are recovered on meshes of Polycube only</source>
+      <translation>{}: Spannungen werden nur auf Netzen von Polycube wiedergewonnen</translation>
     </message>
     <message>
       <source>is written for meshes of Polycube only</source>
@@ -2058,6 +2070,14 @@
     <message>
       <source>{}: the material has no density</source>
       <translation>{}: das Material hat keine Dichte</translation>
+    </message>
+    <message>
+      <source>stresses are recovered from the integration points</source>
+      <translation>Spannungen sind aus den Integrationspunkten wiedergewonnen</translation>
+    </message>
+    <message>
+      <source>stresses are recovered from the integration points; {:.0f} % are CalculiX's, where the cells are too few or too large for that</source>
+      <translation>Spannungen sind aus den Integrationspunkten wiedergewonnen; {:.0f} % sind die von CalculiX, wo die Zellen dafür zu wenige oder zu groß sind</translation>
     </message>
     <message>
       <source>Try other axes of faces, or another frame.</source>

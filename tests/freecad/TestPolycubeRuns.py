@@ -108,10 +108,13 @@ class Elements(solve_tests.SolveTest):
         self.document = ccx_cantilever_faceload.setup()
         solution = polycube.solve(self.document.Analysis, folder=self.folder)
         self.assertEqual((solution.element, solution.notes), ("", []))
+        self.assertIsNone(solution.recovered)
+        with self.assertRaisesRegex(polycube.InvalidInput, "stresses are recovered on meshes of Polycube only$"):
+            polycube.solve(self.document.Analysis, folder=self.folder, stresses="recovered")
         self.assertAlmostEqual(min(vector.z for vector in solution.result.DisplacementVectors), -86.93, delta=0.05)
 
 
-class Runs(solve_tests.SolveTest):
+class Loaded(solve_tests.SolveTest):
     def loaded(self):
         part, analysis = self.bar("Face1")
         self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
@@ -119,6 +122,8 @@ class Runs(solve_tests.SolveTest):
         self.document.recompute()
         return part, analysis
 
+
+class Runs(Loaded):
     def test_results_are_one_undo_step_and_replace_those_before(self):
         part, analysis = self.loaded()
         self.document.UndoMode = 1

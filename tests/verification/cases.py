@@ -41,6 +41,11 @@ class Case:
     mapped: dict = None  # options that make the mesh which one would map by hand
 
 
+def has_stresses(case):
+    """Whether a case looks at stresses."""
+    return any(quantity.kind in ("stress", "exact") for quantity in case.quantities)
+
+
 #: of a quarter of a tube, one block from radius to radius
 ONE_BLOCK = {"frame": ((1, 1, 0), (-1, 1, 0))}
 #: largest error at the finest size
@@ -149,7 +154,10 @@ def lame_moved(field):
     return rms(field.radial(field.where(r, _IN))[2] - exact) / exact
 
 
-# Plate with a hole a fifth as wide, pulled: Howland's factor for its width, in plane strain, which leaves the stress in the plane as it is.
+# Plate with a hole a fifth as wide, pulled, in plane strain, which leaves the stress in the plane as it is. Howland's factor is for a strip without ends, 31.4.
+
+#: MPa beside the hole, by meshes of C3D20R mapped by hand, 5,659, 12,519 and 22,067 nodes: 31.5576, 31.5585, 31.5588, CalculiX's own 31.550, 31.554, 31.556
+HOLE = 31.559
 
 
 def hole():
@@ -163,7 +171,7 @@ def hole():
 
 def hole_top(field):
     found = field.where(lambda x, y, z: np.hypot(x, y - 10), 0)
-    return abs(np.mean(field.stress[found, 0]) / 31.4 - 1)
+    return abs(np.mean(field.stress[found, 0]) / HOLE - 1)
 
 
 def hole_free(field):
@@ -171,6 +179,9 @@ def hole_free(field):
 
 
 # NAFEMS LE1 and LE10: a plate between two ellipses, lengths in m there, in mm here.
+
+#: MPa, by meshes mapped by hand, 7,865 and 24,541 nodes: 92.726, 92.731, CalculiX's own 92.698, 92.712; NAFEMS gives 92.7, of a membrane
+LE1 = 92.732
 
 
 def ellipse(a, b, height):
@@ -200,7 +211,7 @@ def le1():
 
 def le1_stress(field):
     found = field.where(lambda x, y, z: np.hypot(x - 2000, y), 0)
-    return abs(np.mean(field.stress[found, 1]) / 92.7 - 1)
+    return abs(np.mean(field.stress[found, 1]) / LE1 - 1)
 
 
 def le10():
@@ -419,8 +430,8 @@ CASES = [
         lame,
         (2.5, 1.67, 1.25),
         [
-            Quantity("stresses in the plane, all nodes", "stress", lame_stress, 0.015),
-            Quantity("hoop stress at the bore", "stress", lame_hoop, 0.016),
+            Quantity("stresses in the plane, all nodes", "stress", lame_stress, 0.0035),
+            Quantity("hoop stress at the bore", "stress", lame_hoop, 0.004),
             Quantity("bore widened", "displacement", lame_moved, 0.00071),
         ],
         mapped=ONE_BLOCK,
@@ -428,12 +439,12 @@ CASES = [
     Case(
         "hole",
         "Plate with a hole",
-        "Howland",
+        "fine meshes",
         hole,
         (5, 3.5, 2.5),
-        [Quantity("stress beside the hole", "stress", hole_top, 0.025), Quantity("radial stress at the hole", "stress", hole_free, 0.091)],
+        [Quantity("stress beside the hole", "stress", hole_top, 0.039), Quantity("radial stress at the hole", "stress", hole_free, 0.091)],
     ),
-    Case("LE1", "NAFEMS LE1, elliptic membrane", "NAFEMS", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.017)]),
+    Case("LE1", "NAFEMS LE1, elliptic membrane", "fine meshes", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.002)]),
     Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.057)]),
     Case(
         "LE11",
@@ -441,10 +452,10 @@ CASES = [
         "NAFEMS",
         le11,
         (200, 130, 100),
-        [Quantity("axial stress at A", "stress", le11_stress, 0.025)],
+        [Quantity("axial stress at A", "stress", le11_stress, 0.006)],
         heat=True,
     ),
-    Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.015)]),
+    Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.0007)]),
     Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.017)]),
     Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("lowest frequency", "frequency", lowest(BAR), 0.0016)]),
     Case(
@@ -481,7 +492,7 @@ CASES = [
         "closed form",
         disc,
         (2.5, 1.67, 1.25),
-        [Quantity("stresses in the plane, all nodes", "stress", disc_stress, 0.0058), Quantity("hoop stress at the bore", "stress", disc_hoop, 0.01)],
+        [Quantity("stresses in the plane, all nodes", "stress", disc_stress, 0.0017), Quantity("hoop stress at the bore", "stress", disc_hoop, 0.0025)],
         mapped=ONE_BLOCK,
     ),
     Case("weight", "Bar that hangs", "closed form", hanging, (10, 5, 3.3), [Quantity("its end", "displacement", hanging_end, 2e-06)], smooth=False),
@@ -501,7 +512,7 @@ CASES = [
         "closed form",
         lambda: heated(True),
         (5, 3.3, 2.5),
-        [Quantity("stress", "stress", heated_stress, 6.2e-05)],
+        [Quantity("stress", "stress", heated_stress, 2e-06)],
         smooth=False,
         heat=True,
     ),

@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 #: names of the blocks in a result file, and of what is in them here
-_BLOCKS = {"DISP": "displacement", "STRESS": "stress", "NDTEMP": "temperature"}
+_BLOCKS = {"DISP": "displacement", "STRESS": "stress", "ZZSTR": "stress", "NDTEMP": "temperature"}
 
 
 def read(path):

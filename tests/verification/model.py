@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 from unittest import mock
@@ -12,7 +13,7 @@ import numpy as np
 import frd
 
 from freecad import polycube
-from freecad.polycube import ccx, engine, solver
+from freecad.polycube import ccx, solver
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(HERE)), "resources", "examples"))
@@ -85,7 +86,7 @@ class Model:
         import Fem
 
         for _ in range(6):
-            run = subprocess.run([engine.python(), os.path.join(HERE, "tets.py"), shape, str(size), out], capture_output=True, check=False)
+            run = subprocess.run([os.path.join(HERE, "tets.py"), shape, str(size), out], capture_output=True, check=False)
             if run.returncode:
                 return None
             mesh = Fem.read(out)
@@ -97,29 +98,36 @@ class Model:
         obj.FemMesh = best
         return best
 
-    def solve(self, folder, element=None):
-        """A Field of the results."""
+    def solve(self, folder, element=None, improved=False):
+        """A Field of the results. improved: with CalculiX's own recovery of stresses, ZZS, which FreeCAD does not read."""
         self.document.recompute()
         tools = solver.prepared(self.analysis, None, folder)
         solution = solver.write(tools, element)
+        with open(solution.path, encoding="utf-8") as file:
+            text = file.read()
         if self.change:
-            mesh = tools.mesh.FemMesh
-            points = {number: np.array(point[:]) for number, point in mesh.Nodes.items()}
-            with open(solution.path, encoding="utf-8") as file:
-                text = file.read()
-            with open(solution.path, "w", encoding="utf-8") as file:
-                file.write(self.change(text, points))
+            text = self.change(text, {number: np.array(point[:]) for number, point in tools.mesh.FemMesh.Nodes.items()})
+        if improved:
+            text = re.sub(r"^(\*EL FILE.*\n).*", r"\1ZZS", text, flags=re.MULTILINE)
+        with open(solution.path, "w", encoding="utf-8") as file:
+            file.write(text)
         real = ccx.find()
         with mock.patch.dict(os.environ, POLYCUBE_MEASURED=real, POLYCUBE_CCX=os.path.join(HERE, "measured")):
             solver.run(solution)
-        return Field(solution, self)
+        raw = Field(solution, self)
+        solution.recovered = solution.recover and solution.recover()
+        if not solution.recovered:
+            return raw
+        field = Field(solution, self)
+        field.raw = raw
+        return field
 
 
 class Field:
-    """Results at the nodes of a mesh, with the nodes of faces by a function of place."""
+    """Results at the nodes of a mesh, with the nodes of faces by a function of place. raw: a Field with CalculiX's stresses, where these are recovered."""
 
     def __init__(self, solution, model):
-        self.solution, self.model = solution, model
+        self.solution, self.model, self.raw = solution, model, None
         base = os.path.splitext(solution.path)[0]
         with open(os.path.join(os.path.dirname(base), "measured.json"), encoding="ascii") as file:
             self.cost = json.load(file)

@@ -1,3 +1,4 @@
+#!/usr/bin/python3
 """A mesh of tetrahedra with ten nodes, by the Gmsh library with the options that FreeCAD's Gmsh mesher gives it; run as a program of its own.
 
     tets.py SHAPE.brep SIZE OUT.unv

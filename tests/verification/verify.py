@@ -12,7 +12,7 @@ import traceback
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import cases  # noqa: E402
 
-#: what a mesh is made of, and the elements that it is solved with
+#: what a mesh is made of, and the elements that it is solved with; from them come the series "raw", with CalculiX's stresses, and "improved", with its ZZS
 SERIES = {"hexes": (2, ("C3D20R", "C3D20")), "linear": (1, ("C3D8I",)), "mapped": (2, ("C3D20R",)), "tets": (None, (None,))}
 
 
@@ -22,7 +22,7 @@ def series_of(case):
 
 
 def measure(case, size, series, nodes=None):
-    """Rows of one mesh, one for each element: nodes, cells, processor seconds and memory of CalculiX, errors of the quantities. nodes: of tetrahedra."""
+    """Rows of one mesh, for each element, and for other stresses from the same mesh: nodes, cells, processor seconds and memory of CalculiX, errors of the quantities. nodes: of tetrahedra."""
     order, elements = SERIES[series]
     model = case.model()
     try:
@@ -30,16 +30,22 @@ def measure(case, size, series, nodes=None):
             mesh = model.mesh(size, order, **(case.mapped if series == "mapped" else {})) if order else model.tets(nodes, folder)
             for element in elements:
                 field = model.solve(folder, element)
-                yield {
-                    "case": case.name,
-                    "series": series,
-                    "element": element or "C3D10",
-                    "size": size,
-                    "nodes": mesh.NodeCount,
-                    "cells": mesh.VolumeCount,
-                    **field.cost,
-                    "errors": [quantity.error(field) for quantity in case.quantities],
-                }
+                fields = {series: field}
+                if cases.has_stresses(case) and series == "hexes" and field.raw:
+                    fields["raw"] = field.raw
+                if cases.has_stresses(case) and series == "tets":
+                    fields["improved"] = model.solve(folder, improved=True)
+                for name, found in fields.items():
+                    yield {
+                        "case": case.name,
+                        "series": name,
+                        "element": element or "C3D10",
+                        "size": size,
+                        "nodes": mesh.NodeCount,
+                        "cells": mesh.VolumeCount,
+                        **found.cost,
+                        "errors": [quantity.error(found) for quantity in case.quantities],
+                    }
     finally:
         model.close()
 

@@ -299,7 +299,7 @@ def set_analysis(obj, analysis):
 
 
 @_on_what_is_there
-def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
+def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None, stresses=None):
     """Solves an analysis by CalculiX, with all its loads, and loads the results into it: see solver.solve, which this is. Returns a Solution.
 
     >>> solution = polycube.solve(loaded)
@@ -308,7 +308,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     """
     from . import solver as solving
 
-    return solving.solve(analysis, element, solver, folder, log, cancel)
+    return solving.solve(analysis, element, solver, folder, log, cancel, stresses)
 
 
 @_on_what_is_there

@@ -17,8 +17,8 @@ TOLERANCE = 0.005
 #: abscissas and weights of three Gauss points
 _GAUSS = ((-(0.6**0.5), 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9))
 #: places of the 20 nodes of a cell in SMESH's order: corners, then the middles of edges below, above, upright
-_CORNERS = ((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))
-_MIDDLES = ((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1), (-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
+CORNERS = ((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))
+MIDDLES = ((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1), (-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
 
 
 class Balance:
@@ -138,18 +138,18 @@ def _volumes(mesh):
     for a, weight_a in _GAUSS:
         for b, weight_b in _GAUSS:
             for c, weight_c in _GAUSS:
-                value, slopes = _shape_functions(nodes.shape[1], numpy.array((a, b, c)))
+                value, slopes = shape_functions(nodes.shape[1], numpy.array((a, b, c)))
                 jacobian = numpy.abs(numpy.linalg.det(numpy.einsum("nk,mnd->mkd", slopes, corners)))
                 shares.append(jacobian[:, None] * value * (weight_a * weight_b * weight_c))
                 places.append(numpy.einsum("n,mnd->md", value, corners))
     return nodes, numpy.stack(shares, axis=1), numpy.stack(places, axis=1)
 
 
-def _shape_functions(count, at):
+def shape_functions(count, at):
     """(values, slopes along three directions) of the shape functions of a cell with 8 or 20 nodes."""
     import numpy
 
-    corner, middle = numpy.array(_CORNERS, float), numpy.array(_MIDDLES, float)
+    corner, middle = numpy.array(CORNERS, float), numpy.array(MIDDLES, float)
     terms = 1 + corner * at
     value = terms.prod(axis=1) / 8
     slope = numpy.stack([corner[:, k] * numpy.delete(terms, k, 1).prod(axis=1) / 8 for k in range(3)], axis=1)

@@ -56,6 +56,12 @@ def density(material):
     return FreeCAD.Units.Quantity(value).getValueAs("t/mm^3").Value if value else 0.0
 
 
+def elasticity(material):
+    """(Young's modulus in MPa, Poisson's ratio) of a material object."""
+    values = material.Material
+    return FreeCAD.Units.Quantity(values["YoungsModulus"]).getValueAs("MPa").Value, float(values["PoissonRatio"])
+
+
 def gravity(weight):
     """The acceleration that FreeCAD's writer takes a self weight for, mm/s2: 0.20 has a direction only, and 9806 mm/s2 in its writer."""
     if hasattr(weight, "GravityDirection"):

@@ -107,6 +107,11 @@ class GroupedMesh:
         """Mesh faces at which two solids touch."""
         return {face for (name, kind), group in self._elements.items() if kind == "Face" and name.count("Solid") == 2 for face in self._mesh.getGroupElements(group)}
 
+    def solids(self):
+        """[cells of a solid, for each of the part]"""
+        groups = [group for (name, kind), group in self._elements.items() if kind == "Volume" and name.startswith("Solid") and name[5:].isdigit()]
+        return [self._mesh.getGroupElements(group) for group in groups]
+
     def _nodes(self, shape, kind, search):
         elements = self.elements(shape, kind)
         return sorted({node for element in elements for node in self._mesh.getElementNodes(element)}) if elements else search(shape)

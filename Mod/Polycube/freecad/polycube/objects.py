@@ -4,7 +4,7 @@ import json
 
 import FreeCAD
 
-from . import cells, compat, fem_mesh, load_sets, option_table, refinements, shapes
+from . import cells, compat, fem_mesh, load_sets, option_table, refinements, shapes, stresses
 from .compat import part_of, set_part
 from .engine_words import told
 from .errors import InvalidInput
@@ -30,6 +30,8 @@ _RESULTS = [
 ]
 #: what polycube.solve solves the mesh with: "Default", or one of deck.TYPES
 _ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
+#: which stresses polycube.solve gives: stresses.KINDS
+_STRESSES = "SolverStresses"
 #: property that documents do not have which are older than the bounds on counts
 _BOUND = "MeshSizeFromCurvature"
 _HIDDEN = ("Report", "Blocks", "MeshedOptions", "MeshedCells", "MeshedShape")
@@ -51,6 +53,11 @@ def element_of(obj):
     """The element type that the mesh object asks for, or None."""
     element = getattr(obj, _ELEMENT, _ELEMENTS[0])
     return None if element == _ELEMENTS[0] else element
+
+
+def stresses_of(obj):
+    """Which stresses the mesh object asks for."""
+    return getattr(obj, _STRESSES, stresses.RECOVERED)
 
 
 def is_polycube(obj):
@@ -154,6 +161,10 @@ class PolycubeMesh(Stateless):
             meaning = "Element that polycube.solve takes: by default C3D20R with C3D20 where hourglassing threatens, and C3D8I of first order"
             obj.addProperty("App::PropertyEnumeration", _ELEMENT, "Polycube", meaning)
             setattr(obj, _ELEMENT, _ELEMENTS)
+        if not hasattr(obj, _STRESSES):
+            meaning = "Stresses that polycube.solve gives: recovered from the integration points, of second order, or extrapolated by CalculiX"
+            obj.addProperty("App::PropertyEnumeration", _STRESSES, "Polycube", meaning)
+            setattr(obj, _STRESSES, list(stresses.KINDS))
         for kind, name, group, meaning in _RESULTS:
             if not hasattr(obj, name):
                 obj.addProperty(kind, name, group, meaning)

@@ -11,6 +11,7 @@ import time
 import FreeCAD
 
 from . import api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
+from . import stresses as stresses_of
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh, loss, not_captured
 from .words import tr
@@ -27,14 +28,17 @@ class Solution:
     """What a solve gave: `results`, FreeCAD's result objects; `path` of the input file; `element`; `notes`, lines; `seconds` that CalculiX took.
 
     `stress_error`: how much stresses differ from cell to cell, and where most (estimate.StressError).
+    `recovered`: the stresses that results have in place of CalculiX's (stresses.Recovered), `energy_error`: how far those are from the cells' own
+    (estimate.EnergyError); None where results have CalculiX's stresses.
     `balance`: whether the reactions carry the loads (balance.Balance); None where that is not known, of frequencies and large displacements among others.
     """
 
     def __init__(self, path, element, notes):
         self.path, self.element, self.notes = path, element, notes
         self.results, self.seconds, self.balance, self.stress_error = [], 0.0, None, None
-        # for what is to be done after the run: a GroupedMesh; whether there are springs; what makes the balance
-        self.mesh, self.springs, self.weigh = None, False, None
+        self.recovered, self.energy_error = None, None
+        # for what is to be done after the run: a GroupedMesh; whether there are springs; what makes the balance, and the stresses; MPa of the cells
+        self.mesh, self.springs, self.weigh, self.recover, self.stiffness = None, False, None, None, None
 
     @property
     def result(self):
@@ -42,19 +46,21 @@ class Solution:
         return self.results[-1]
 
 
-def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None):
+def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=None, stresses=None):
     """Solves the analysis, loads the results into it in one undo step and returns a Solution.
 
     element: "C3D20R" (the default), "C3D20" of a mesh of second order; "C3D8I" (the default), "C3D8" of one of first; None is what the mesh object's property
     SolverElement says. By default C3D20R becomes C3D20 in cells where hourglassing threatens, and everywhere where temperatures are looked for; an element that
     is asked for is taken everywhere. Meshes of other meshers keep FreeCAD's elements.
+    stresses: "recovered" (the default) from the integration points by fitted polynomials, of linear runs on meshes of second order; "calculix", which CalculiX
+    extrapolates. None is what the mesh object's property SolverStresses says.
     solver: the analysis' solver object, if it has several. folder: for the files, which stay; the default is the one that FreeCAD's preferences name.
     log(line): CalculiX's output and notes.
     cancel(): asked every 0.1 s, true stops the work.
     Raises InvalidInput, SolverFailed with CalculiX's own words, Cancelled; the analysis is then as it was.
     """
     tools = prepared(analysis, solver, folder)
-    solution = write(tools, element)
+    solution = write(tools, element, stresses)
     for line in solution.notes:
         FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
         if log:
@@ -63,6 +69,9 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     if solution.springs:
         mesh = tools.mesh.FemMesh
         _change(os.path.splitext(solution.path)[0] + ".frd", lambda text: deck.without_others(text, max(mesh.Nodes), max(mesh.Volumes)))
+    if solution.recover:
+        solution.recovered = solution.recover()
+        _tell(analysis, solution.recovered.line() if solution.recovered else "", log)
     if solution.weigh:
         solution.balance = solution.weigh()
     if solution.balance:
@@ -82,11 +91,20 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
             raise SolverFailed(tr("CalculiX wrote no results"))
         if solution.results and solution.mesh and tools.solver.AnalysisType in _WITH_REACTIONS:
             solution.stress_error = estimate.stress_error(solution.path, solution.result, solution.mesh)
-    if solution.stress_error and solution.stress_error.line():
-        FreeCAD.Console.PrintMessage("{}: {}\n".format(analysis.Label, solution.stress_error.line()))
-        if log:
-            log(solution.stress_error.line())
+            stresses_of.mark(solution.results, solution.recovered)
+            if solution.recovered:
+                solution.energy_error = estimate.energy_error(solution.recovered, solution.stiffness)
+                solution.energy_error.show_in(solution.result)
+    for error in filter(None, (solution.stress_error, solution.energy_error)):
+        _tell(analysis, error.line(), log)
     return solution
+
+
+def _tell(analysis, line, log):
+    if line:
+        FreeCAD.Console.PrintMessage("{}: {}\n".format(analysis.Label, line))
+        if log:
+            log(line)
 
 
 def prepared(analysis, solver, folder):
@@ -127,12 +145,14 @@ def prepared(analysis, solver, folder):
     return tools
 
 
-def write(tools, element=None):
-    """Writes the input file of FreeCAD's tools, completes it and returns a Solution without results."""
+def write(tools, element=None, stresses=None):
+    """Writes the input file of FreeCAD's tools, completes it and returns a Solution without results. element, stresses: as for solve()."""
     from femmesh import meshsetsgetter
     from femsolver.calculix import writer
     from femtools import membertools
 
+    if stresses not in (None, *stresses_of.KINDS):
+        raise InvalidInput(tr("stresses are {} or {}, not {}").format(*stresses_of.KINDS, stresses))
     getter = meshsetsgetter.MeshSetsGetter(tools.analysis, tools.solver, tools.mesh, membertools.AnalysisMember(tools.analysis))
     mesh = getter.femmesh if isinstance(getter.femmesh, GroupedMesh) else None
     special = _special(tools.analysis) if mesh else []
@@ -152,15 +172,19 @@ def write(tools, element=None):
     tools.inp_file_name = path = files.write_solver_input()
     if not path:
         raise SolverFailed(tr("FreeCAD could not write the input file"))
-    chosen = ""
+    chosen, recovers = "", False
     if mesh:
         element = element or objects.element_of(mesh.owner)
         order = 2 if len(mesh.getElementNodes(mesh.Volumes[0])) == 20 else 1
         chosen, others, line = deck.choose(element, order, mesh, _points(tools.analysis, mesh), tools.solver.AnalysisType == "thermomech")
         notes += [line] if line else []
+        recovers = order == 2 and _recovers(tools, getter.member, stresses or objects.stresses_of(mesh.owner))
         _change(files.femmesh_file, lambda text: deck.set_types(text, chosen, others))
     elif element:
         raise InvalidInput(tr("{}: elements can be chosen for meshes of Polycube only").format(tools.mesh.Label))
+    elif stresses == stresses_of.RECOVERED:
+        raise InvalidInput(tr("{}: stresses are recovered on meshes of Polycube only").format(tools.mesh.Label))
+    cards.step += stresses_of.CARDS if recovers else ()
     _change(path, lambda text: deck.add_cards(text, cards.model, cards.step))
     solution = Solution(path, chosen, notes)
     solution.mesh, solution.springs = mesh, any(kind == "spring" for kind, _ in special)
@@ -168,7 +192,25 @@ def write(tools, element=None):
         _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
     if mesh and tools.solver.AnalysisType in _WITH_REACTIONS and tools.solver.GeometricalNonlinearity != "nonlinear":
         solution.weigh = lambda: balance.check(mesh, getter.member, cards.loads, cards.supports, path, SUPPORTS)
+    if recovers:
+        materials = [cells for _, cells in _materials(getter.member) if cells]
+        solution.recover = lambda: stresses_of.recover(path, mesh, materials)
+        solution.stiffness = _stiffness(getter.member, mesh)
     return solution
+
+
+def _stiffness(member, mesh):
+    """(Young's modulus, Poisson's ratio) of each cell."""
+    found = dict.fromkeys(mesh.Volumes, (1.0, 0.0))
+    for entry in member.mats_linear:
+        found.update(dict.fromkeys(entry.get("FEMElements") or mesh.Volumes, compat.elasticity(entry["Object"])))
+    return [found[volume] for volume in mesh.Volumes]
+
+
+def _recovers(tools, member, stresses):
+    """Whether stresses are recovered: of linear runs that have some."""
+    linear = tools.solver.GeometricalNonlinearity != "nonlinear" and not member.mats_nonlinear
+    return stresses == stresses_of.RECOVERED and linear and tools.solver.AnalysisType in _WITH_REACTIONS
 
 
 def _change(path, change):

@@ -443,9 +443,10 @@ class Fitting {
         above *= kFitTuning.higher;
         continue;
       }
+      const bool rising = now.worst < options_.target_scaled_jacobian && now.worst > kFitTuning.rising * score_.worst;
       score_ = now;
       best_ = mesh_.points;
-      if (gain < kFitTuning.even_gain) break;
+      if (gain < kFitTuning.even_gain && !rising) break;
     }
   }
 

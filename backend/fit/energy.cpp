@@ -87,9 +87,17 @@ double corner_energies(const Energy& energy, const std::array<Vectors<N>, 3>& j,
   if (energy.right > 0) {
     const int half = energy.power / 2;
     const Values<N> skewness = squared[0] * squared[1] * squared[2] * inverse.square();  // 1 / scaled Jacobian^2
-    const Values<N> right = energy.right * raised<N>(skewness, half);
-    value += right.sum();
-    Values<N> steep = energy.power * right;
+    Values<N> steep;                                                                     // by the logarithm of the inverse scaled Jacobian
+    if (energy.gathered > 0) {
+      const Values<N> terms = raised<N>(skewness, energy.gathered / 2);
+      const double sum = terms.sum();
+      value += energy.right * 2 * N / energy.gathered * std::log(sum / N);
+      steep = energy.right * 2 * N / sum * terms;
+    } else {
+      const Values<N> right = energy.right * raised<N>(skewness, half);
+      value += right.sum();
+      steep = energy.power * right;
+    }
     if (energy.floor > 0) {
       const Values<N> near = energy.right / (energy.floor * energy.floor) * raised<N>(energy.floor * energy.floor * skewness, kFitTuning.half_floor_power);
       value += near.sum();
@@ -136,14 +144,14 @@ void add(std::vector<Vec3>& x, double factor, const std::vector<Vec3>& y, int th
 // The last pairs of steps and gradient changes, and the direction they give.
 class History {
  public:
-  History(const std::vector<double>& sizes, int threads) : sizes_(sizes), threads_(threads) {}
+  History(const std::vector<double>& sizes, std::size_t memory, int threads) : sizes_(sizes), memory_(memory), threads_(threads) {}
 
   void add_pair(std::vector<Vec3> step, std::vector<Vec3> change) {
     const double curvature = dot(step, change, threads_);
     double scaled = 0;
     for (std::size_t i = 0; i < change.size(); ++i) scaled += sizes_[i] * sizes_[i] * change[i].squaredNorm();
     if (!(curvature > 1e-12 * scaled) || !(scaled > 0)) return;
-    if (pairs_.size() == kFitTuning.memory) pairs_.erase(pairs_.begin());
+    if (pairs_.size() == memory_) pairs_.erase(pairs_.begin());
     pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
     scale_ = curvature / scaled;
   }
@@ -171,6 +179,7 @@ class History {
     double rho;
   };
   const std::vector<double>& sizes_;
+  std::size_t memory_;
   int threads_;
   std::vector<Pair> pairs_;
   double scale_ = 0.02;
@@ -301,7 +310,7 @@ DescentResult Descent::run(const Energy& energy, const std::vector<Vec3>& target
   std::vector<Vec3> gradient(count), trial_gradient(count), moved = mesh_.points, steps(count, Vec3::Zero()), trial_steps(count);
   DescentResult result;
   result.start_energy = result.energy = evaluate(energy, targets, region, turns, skin, mesh_.points, steps, gradient);
-  History history(sizes, threads_);
+  History history(sizes, energy.gathered > 0 ? kFitTuning.long_memory : kFitTuning.memory, threads_);
   while (result.energy < kInfinity && result.iterations < max_iterations) {
     monitor_.check();
     std::vector<Vec3> direction = history.direction(gradient);

@@ -24,6 +24,8 @@ std::vector<Vec3> target_lengths(const HexMesh& mesh, const HexGraph& graph, int
 ///     + right * sum over k of (0.15 / |J_k|)^power
 /// summed over the eight corners of each hex: Garanzha et al. 2021 with the power 3/2 of their first term, which needs no cube root; the
 /// last two are powers of the inverse scaled Jacobian, which knows no size, and of the edges' shortness, lest edges collapse for its sake.
+/// Gathered, the third term is N / gathered * log(mean over the N corners of the hex of (1 / scaled Jacobian)^gathered): minus N times the logarithm of
+/// about its worst one. The mean of the worst corners is what a mesh is judged by; the sum over corners makes good ones better at their cost.
 /// Watched hexes are summed at their integration points too: there an element is judged, and good corners do not vouch for it.
 /// With a floor, a corner adds right / floor^2 * (floor / scaled Jacobian)^16: no cell near the floor gets worse for the sake of the others.
 /// Turns of mesh edges on curved CAD edges add powers of their angle, corners of the skin what corners of hexes do.
@@ -33,6 +35,7 @@ struct Energy {
   int power = 2;     ///< even
   double floor = 0;  ///< a scaled Jacobian, 0: none
   double eps = 0;    ///< 0: a barrier, infinite where D <= 0
+  int gathered = 0;  ///< even; 0: corners count each for itself
 };
 
 struct CellRegion {

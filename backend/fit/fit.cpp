@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -164,7 +165,7 @@ struct Untangling {
   bool done = false;
 };
 
-// Inverted cells, then the lack of quality.
+// Inverted cells by powers of four, a few more or less say nothing of what comes of them; then the lack of quality.
 using Prospect = std::pair<int, double>;
 
 class Fitting {
@@ -207,7 +208,7 @@ class Fitting {
     }
     if (score_.worst > 0) square_up(whole_, 2, 20);
     // The worst cell will be worked on, the mean hardly changes any more.
-    const Prospect result{score_.inverted, -score_.mean - kFitTuning.prospect_worst * score_.worst};
+    const Prospect result{(std::bit_width(static_cast<unsigned>(score_.inverted)) + 1) / 2, -score_.mean - kFitTuning.worst_weight * score_.worst};
     best_ = best;
     score_ = score;
     mesh_.points = points;
@@ -247,6 +248,14 @@ class Fitting {
         polish();
       }
     }
+    restore();
+    return report();
+  }
+
+  // What `finish` left, made better as a whole.
+  FitReport even_out() {
+    monitor_.progress("fit", 0.95);
+    if (score_.worst > 0) even_cells();
     restore();
     return report();
   }
@@ -492,6 +501,35 @@ class Fitting {
     }
   }
 
+  // No energy so far looks at cells as a whole: the mesh by about the worst corner of each cell, the worst cells held where they are. While they are below
+  // the goal a floor that lies above them, and rises with them, raises them too; where it did not hold them it rises further.
+  void even_cells() {
+    const double least = kFitTuning.held * score_.worst;
+    const auto merit = [&](const Score& s) { return s.mean + kFitTuning.worst_weight * std::min(s.worst, goal()); };
+    double above = score_.worst < goal() ? kFitTuning.raising : 1;
+    for (int round = 0; round < kFitTuning.even_rounds && above <= kFitTuning.highest; ++round) {
+      const Energy energy{.shape = options_.keep_sizes ? kFitTuning.kept_shape : kFitTuning.even_shape,
+                          .right = 1,
+                          .floor = above * score_.worst,
+                          .gathered = kFitTuning.gathered};
+      descent_.run(energy, wanted_lengths(), watching_ ? watching(whole_) : whole_, chains_.turns(mesh_.points, entities_), {}, kFitTuning.even_steps);
+      entities_.project(mesh_.points, &whole_.nodes);
+      monitor_.check();
+      const Score now = rate();
+      const double gain = merit(now) - merit(score_);
+      if (now.inverted > score_.inverted || now.hollow > score_.hollow || now.worst < least || gain <= 0) {
+        restore();
+        if (gain <= 0 && now.worst >= score_.worst) break;
+        above *= kFitTuning.higher;
+        continue;
+      }
+      const bool rising = now.worst < options_.target_scaled_jacobian && now.worst > kFitTuning.rising * score_.worst;
+      score_ = now;
+      best_ = mesh_.points;
+      if (gain < kFitTuning.even_gain && !rising) break;
+    }
+  }
+
   // Cells are worked on until they are somewhat better than asked for.
   double goal() const { return 1.5 * options_.target_scaled_jacobian; }
 
@@ -588,12 +626,14 @@ FitChoice fit_best(const CadModel& model, const std::vector<FitCandidate>& candi
   const Begun begun = begin_all(model, candidates, options, monitor);
   const auto rank = [](const FitReport& r) { return std::pair(-r.inverted, r.min_scaled_jacobian); };
   FitChoice choice;
+  std::pair<int, double> best;  // before its cells were evened out, which costs as much as what it brings in the end
   for (std::size_t i : begun.order) {
     if (choice.fitted == most) break;
     const FitReport report = begun.fittings[i]->finish();
-    if (choice.fitted++ == 0 || rank(report) > rank(choice.report)) {
+    if (choice.fitted++ == 0 || rank(report) > best) {
+      best = rank(report);
       choice.index = i;
-      choice.report = report;
+      choice.report = begun.fittings[i]->even_out();
     }
     if (good(choice.index, choice.report)) break;
   }

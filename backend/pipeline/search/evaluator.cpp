@@ -89,7 +89,7 @@ class Evaluator::Work {
   Work(Evaluator& own, int fits)
       : own_(own), model_(own.model_), options_(own.options_), monitor_(own.monitor_), clock_(own.clock_), fits_(fits), fits_left_(fits) {}
 
-  // Whether the part asks for nothing more than the size gives: the plan with bounds was on the same grid.
+  // Whether the bounds that the plan leaves out ask for nothing more than the rest: the plan with them was on the same grid.
   bool repeats_grid(const Plan& plan) {
     const Draft draft = on_grid(plan, false, options_.divisions);
     return std::find(own_.bounded_grids_.begin(), own_.bounded_grids_.end(), grid_of(draft)) != own_.bounded_grids_.end();
@@ -377,7 +377,9 @@ class Evaluator::Work {
     const DemandPlaces places = places_matter ? find_places(model_, s.tets, s.map, s.blocks) : DemandPlaces();
     wanted.demanded = [&](double at) { return quantize_options(places, s.tets, s.map, s.blocks, demanded, at); };
     wanted.room = std::move(room);
-    if (plan.bounded) wanted.bounds = part_bounds(model_, s.tets, s.map, s.blocks, chains, options_, more_elements_, levels_);
+    MeshOptions bounding = options_;
+    if (!plan.layered) bounding.min_layers = std::max(1, options_.min_layers);
+    if (plan.bounded) wanted.bounds = part_bounds(model_, s.tets, s.map, s.blocks, chains, bounding, more_elements_, levels_);
     Integers found = find_integers(s.blocks, s.map, wanted, monitor_);
     for (const std::string& line : found.deciding) monitor_.log("size: " + line);
     return std::move(found.quantization);
@@ -520,7 +522,7 @@ Outcome Evaluator::evaluate(const Plan& plan, const Made* from, int fits) {
   skipped.kind = Outcome::Kind::kDuplicate;
   if (structures_.repeats(plan.structure)) return skipped;
   Work work(*this, fits);
-  if (!plan.bounded && work.repeats_grid(plan)) return skipped;
+  if (plan.for_poor && work.repeats_grid(plan)) return skipped;
   return work.anew(plan);
 }
 
@@ -564,6 +566,7 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
 
   if (!q.optimal) r.warnings.push_back("the sizes of the cells could be better still: the best integers were not found within the search's nodes");
   if (!draft.plan.bounded) r.warnings.push_back("the size alone decides: with the cells that walls and circles ask for the mesh would be poor or none");
+  if (!draft.plan.layered) r.warnings.push_back("walls have fewer layers than the default: with them the mesh would be poor or none");
   if (draft.plan.refine != 1) r.warnings.push_back("the cells are finer than asked for");
   for (std::string& line : unmet_divisions(result.mesh, result.association, options_.divisions)) r.warnings.push_back(std::move(line));
   r.warnings.insert(r.warnings.end(), draft.refine_warnings.begin(), draft.refine_warnings.end());

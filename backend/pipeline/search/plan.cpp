@@ -25,8 +25,11 @@ std::vector<Plan> keeping_plans(const MeshOptions& options, std::vector<LabelVar
     }
   };
   add("", 0, kSearchTuning.best_labellings, 1, 1);
-  // Where layers and circles squeeze cells into narrow corners, or fold them, the size alone may do.
+  // Where layers and circles squeeze cells into narrow corners, or fold them, circles without layers or the size alone may do.
   if (!options.coarsest && !labels.empty()) {
+    add(", without layers through walls", 0, 1, 1, 1);
+    list.back().layered = false;
+    list.back().for_poor = true;
     add(", the size alone", 0, 1, 1, 1);
     list.back().bounded = false;
     list.back().for_poor = true;

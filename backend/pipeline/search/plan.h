@@ -21,6 +21,7 @@ struct Plan {
   StructurePlan structure{};  ///< CAD edges that it does without get no path either
   double refine = 1;          ///< on the number of cells along an edge
   bool bounded = true;        ///< with the counts that the part itself asks for (bounds.h), but those that options name
+  bool layered = true;        ///< and of those the layers through walls
   bool for_poor = false;      ///< it is left out where there is a complete mesh whose cells are not poor
   bool may_wait = false;      ///< where its labels are doubtful it is tried after those whose labels are not
   Surrender surrender = Surrender::kNothing;

@@ -88,6 +88,41 @@ TEST(Descent, AFloorCostsAsItsFormulaSays) {
   EXPECT_NEAR(energy(1.25) - energy(0), 8 * std::pow(1.25, 14), 1e-9);
 }
 
+// A cell with one corner pulled out of place, by the sum over its corners and by about the worst of them.
+TEST(Descent, GatheredCornersCostAsTheirFormulaSays) {
+  Box box;
+  auto& [grid, model, graph, entities, targets, monitor] = box;
+  const Hex& hex = grid.mesh.hexes[0];
+  for (int v : hex) {
+    if (entities.dimension(v) == 3) grid.mesh.points[v] += Vec3(0.1, 0.05, -0.08);
+  }
+  ASSERT_LT(scaled_jacobian(grid.mesh.points, hex), 0.95);
+  const CellRegion whole{{0}, {}};
+  const auto energy = [&](int gathered) {
+    return Descent(grid.mesh, graph, entities, 1, monitor).run({.shape = 0, .right = 1, .gathered = gathered}, targets, whole, {}, {}, 0).energy;
+  };
+  double each = 0, all = 0;
+  for (int c = 0; c < 8; ++c) {
+    const double inverse = 1 / corner_scaled_jacobian(grid.mesh.points, hex, c);
+    each += std::pow(inverse, 2);
+    all += std::pow(inverse, 32) / 8;
+  }
+  EXPECT_NEAR(energy(32) - energy(0), 16.0 / 32 * std::log(all) - each, 1e-9);
+}
+
+// A box whose inner nodes are out of place: the worst corners come back to right angles.
+TEST(Descent, GatheredCornersAreRaised) {
+  testing::Grid grid = testing::box_grid(4);
+  for (std::size_t v = 0; v < grid.mesh.points.size(); ++v) {
+    if (grid.association.point_cad[v].dim == 3) grid.mesh.points[v] += Vec3(0.08 * (v % 3) - 0.08, 0.06 * (v % 2), -0.05);
+  }
+  const double before = summarise(grid.mesh).mean_scaled_jacobian;
+  ASSERT_GT(summarise(grid.mesh).min_scaled_jacobian, 0);
+  ASSERT_LT(before, 0.9);
+  descend(grid, {.shape = 0.02, .right = 1, .gathered = 32}, {}, 100);
+  EXPECT_GT(summarise(grid.mesh).min_scaled_jacobian, 0.99);
+}
+
 // All corners of this cell are good (scaled Jacobian 0.4), yet it is inverted inside.
 TEST(Descent, WatchedCellsAreLookedAtInside) {
   Box box;

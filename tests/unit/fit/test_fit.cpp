@@ -38,6 +38,7 @@ void shake(HexMesh& mesh, double size) {
 
 PaddedMesh padded(const Grid& grid) { return pad(CadModel::from_brep(grid.brep), grid.mesh, grid.association, Monitor{}); }
 
+// The least that the shapes reach; without the last step, by the worst corner of each cell, most stay below.
 struct Case {
   const char* name;
   Grid (*make)();
@@ -65,11 +66,25 @@ TEST_P(FitShapes, UntanglesAShakenMeshOntoTheCad) {
 
 INSTANTIATE_TEST_SUITE_P(Grids, FitShapes,
                          ::testing::Values(Case{"box", [] { return box_grid(4); }, 0.95, 0.99}, Case{"l", [] { return l_grid(4); }, 0.9, 0.98},
-                                           Case{"plate", [] { return plate_grid(6); }, 0.8, 0.97},
-                                           Case{"cylinder", [] { return cylinder_grid(6); }, 0.75, 0.95}, Case{"ball", [] { return ball_grid(6); }, 0.6, 0.9},
-                                           Case{"boss", [] { return boss_grid(6); }, 0.45, 0.94}, Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
-                                           Case{"imprint", [] { return imprint_grid(16); }, 0.4, 0.9}),
+                                           Case{"plate", [] { return plate_grid(6); }, 0.905, 0.9875},
+                                           Case{"cylinder", [] { return cylinder_grid(6); }, 0.85, 0.9675},
+                                           Case{"ball", [] { return ball_grid(6); }, 0.765, 0.93}, Case{"boss", [] { return boss_grid(6); }, 0.84, 0.9785},
+                                           Case{"fillet", [] { return filleted_grid(8); }, 0.6, 0.93},
+                                           Case{"imprint", [] { return imprint_grid(16); }, 0.54, 0.925}),
                          [](const auto& tested) { return tested.param.name; });
+
+// Nothing that was reached is given up for something else: neither the worst cell, but for what holds it within 2 %, nor the mean.
+TEST(Fit, AFittedMeshBecomesNoWorse) {
+  for (Grid (*make)() : {+[] { return plate_grid(6); }, +[] { return boss_grid(6); }, +[] { return imprint_grid(16); }}) {
+    const Grid grid = make();
+    const CadModel model = CadModel::from_brep(grid.brep);
+    PaddedMesh p = padded(grid);
+    const FitReport first = fit(model, p.mesh, p.association, {}, Monitor{});
+    const FitReport second = fit(model, p.mesh, p.association, {}, Monitor{});
+    EXPECT_GE(second.min_scaled_jacobian, 0.98 * first.min_scaled_jacobian);
+    EXPECT_GE(second.mean_scaled_jacobian, first.mean_scaled_jacobian - 1e-3);
+  }
+}
 
 TEST(Fit, DoesNotDependOnTheNumberOfThreads) {
   const Grid grid = filleted_grid(12);

@@ -1076,6 +1076,10 @@
       <translation>die Größen der Zellen könnten noch besser sein: die besten ganzen Zahlen wurden in den Knoten der Suche nicht gefunden</translation>
     </message>
     <message>
+      <source>walls have fewer layers than the default: with them the mesh would be poor or none</source>
+      <translation>Wände haben weniger Lagen als voreingestellt: mit ihnen wäre das Netz schlecht oder keines</translation>
+    </message>
+    <message>
       <source>the size alone decides: with the cells that walls and circles ask for the mesh would be poor or none</source>
       <translation>die Größe allein entscheidet: mit den Zellen, die Wände und Kreise verlangen, wäre das Netz schlecht oder keines</translation>
     </message>

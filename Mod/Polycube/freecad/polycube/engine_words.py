@@ -227,6 +227,7 @@ MESSAGES = noop(
         "the time limit ended the search; this is the best mesh so far",
         "the cells are finer than asked for",
         "the sizes of the cells could be better still: the best integers were not found within the search's nodes",
+        "walls have fewer layers than the default: with them the mesh would be poor or none",
         "the size alone decides: with the cells that walls and circles ask for the mesh would be poor or none",
         "{} hexahedra where {} were asked for",
         "{} has no mesh edges on it",

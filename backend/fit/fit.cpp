@@ -99,13 +99,15 @@ class CadHold {
   }
 
   // What the angles of the CAD that the cell's corners fill let its scaled Jacobian be, 1 where they are not narrow.
-  double bound(const CadModel& model, const Hex& hex) const {
+  double bound(const CadModel& model, const std::vector<Vec3>& points, const Hex& hex) const {
     double least = 1;
-    const auto bounded_by = [&](double angle) {
-      if (std::cos(angle) > kFitTuning.narrow) least = std::min(least, std::sin(angle));
-    };
     for (int c = 0; c < 8; ++c) {
       if (point_cad_[hex[c]].dim > 1) continue;
+      const double value = corner_scaled_jacobian(points, hex, c);
+      // Where curves leave a vertex closer together than mesh edges on them do, as in a cusp, other mesh edges may be further apart.
+      const auto bounded_by = [&](double angle) {
+        if (std::cos(angle) > kFitTuning.narrow && kFitTuning.nearly * value <= std::sin(angle)) least = std::min(least, std::sin(angle));
+      };
       for (int k = 0; k < 3; ++k) {
         const int edge = edge_at(hex[c], hex[kCornerNeighbours[c][k]]), other = edge_at(hex[c], hex[kCornerNeighbours[c][(k + 1) % 3]]);
         if (edge == 0) continue;
@@ -646,7 +648,7 @@ bool at_cad_bound(const CadModel& model, const HexMesh& mesh, const Association&
   double least = 1, bound = 1;
   for (const Hex& hex : mesh.hexes) {
     least = std::min(least, scaled_jacobian(mesh.points, hex));
-    bound = std::min(bound, cad.bound(model, hex));
+    bound = std::min(bound, cad.bound(model, mesh.points, hex));
   }
   return bound < 1 && least >= kFitTuning.nearly * bound;
 }

@@ -92,7 +92,8 @@ struct PipelineTuning {
   /// Flipped tets that the blocks bear. Guess.
   int few_flips = 50;
 
-  /// Scaled Jacobian below which a mesh is none. Theory: such cells are turned over by rounding, on the way back to the part's place and in the decimals of a file.
+  /// Scaled Jacobian below which a mesh is none. Theory: such cells are turned over by rounding, on the way back to the part's place and in the decimals of a
+  /// file.
   double flattest = 1e-5;
 
   POLYCUBE_ENTRIES(slack, share_slack, widest_aspect, thinnest, smallest, most_rounds, circle_slack, small_circle, per_small_circle, fewest_round, most_turns,

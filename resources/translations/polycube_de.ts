@@ -176,6 +176,14 @@
       <translation>Abbrechen</translation>
     </message>
     <message>
+      <source>Error of the stresses</source>
+      <translation>Fehler der Spannungen</translation>
+    </message>
+    <message>
+      <source>Shows in colours how far the stresses of the solved analysis are off, by an estimate: make the mesh finer where it is red</source>
+      <translation>Zeigt in Farben, wie weit die Spannungen der gelösten Analyse nach einer Schätzung abweichen: wo es rot ist, das Netz feiner machen</translation>
+    </message>
+    <message>
       <source>Guide to hexahedral meshes</source>
       <translation>Anleitung zu Hexaedernetzen</translation>
     </message>
@@ -1216,6 +1224,14 @@
       <translation>Spannungen in den Zellen weichen um etwa {} % in der Energie ab, nach der Schätzung von Zienkiewicz und Zhu</translation>
     </message>
     <message>
+      <source>{} ({} %, {} % at its worst node)</source>
+      <translation>{} ({} %, {} % am schlechtesten Knoten)</translation>
+    </message>
+    <message>
+      <source>stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu; most, against the mean stress of the part, on {}</source>
+      <translation>Spannungen in den Zellen weichen um etwa {} % in der Energie ab, nach der Schätzung von Zienkiewicz und Zhu; am meisten, gemessen an der mittleren Spannung des Teils, an {}</translation>
+    </message>
+    <message>
       <source>heat flux</source>
       <translation>Wärmestrom</translation>
     </message>
@@ -1818,6 +1834,14 @@
     <message>
       <source>Displacement</source>
       <translation>Verschiebung</translation>
+    </message>
+    <message>
+      <source>Error of the stresses, of the part's mean</source>
+      <translation>Fehler der Spannungen, gemessen am Mittel des Teils</translation>
+    </message>
+    <message>
+      <source>Difference of the stress from cell to cell</source>
+      <translation>Unterschied der Spannung von Zelle zu Zelle</translation>
     </message>
     <message>
       <source>{}: {:.4g} (blue) to {:.4g} {} (red). A double click on {} shows more.</source>

@@ -74,6 +74,27 @@ class Solve(GuiTest):
         self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
 
+    def test_errors_in_colours(self):
+        """The estimate of Zienkiewicz and Zhu, and where stresses are CalculiX's the difference from cell to cell; nothing before there are results."""
+        if not ccx.find():
+            self.skipTest(ccx.MISSING)
+        for kind, words in (("recovered", "Error of the stresses, of the part's mean"), ("calculix", "Difference of the stress from cell to cell")):
+            self.assertFalse(commands.ShowErrors().IsActive())
+            self.document.PolycubeMesh.SolverStresses = kind
+            with mock.patch.object(QtGui.QMessageBox, "information"):
+                FreeCADGui.runCommand(commands.Solve.Name)
+            self.assertTrue(commands.ShowErrors().IsActive())
+            FreeCADGui.runCommand(commands.ShowErrors.Name)
+            process_events()
+            picture("errors-" + kind)
+            (result,) = self.results()
+            line = FreeCADGui.getMainWindow().statusBar().currentMessage()
+            self.assertTrue(line.startswith(words + ": "), line)
+            most = max(result.EnergyError if kind == "recovered" else result.StressError)
+            self.assertIn(" to {:.4g} % (red)".format(most), line)
+            self.assertTrue(result.Mesh.ViewObject.isVisible())
+            self.document.removeObject(result.Name)
+
     def test_beside_the_result_display_of_freecad(self):
         """FreeCAD's own panel of results opens and paints after the panel of the mesh was open with colours and a cut, and the other way round."""
         if not ccx.find():

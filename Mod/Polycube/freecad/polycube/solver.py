@@ -94,6 +94,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
             stresses_of.mark(solution.results, solution.recovered)
             if solution.recovered:
                 solution.energy_error = estimate.energy_error(solution.recovered, solution.stiffness)
+                solution.energy_error.find_faces(solution.mesh)
                 solution.energy_error.show_in(solution.result)
     for error in filter(None, (solution.stress_error, solution.energy_error)):
         _tell(analysis, error.line(), log)

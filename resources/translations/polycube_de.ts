@@ -2072,6 +2072,34 @@
       <translation>es endete mit Status {}</translation>
     </message>
     <message>
+      <source>Element</source>
+      <translation>Element</translation>
+    </message>
+    <message>
+      <source>Stresses</source>
+      <translation>Spannungen</translation>
+    </message>
+    <message>
+      <source>Default</source>
+      <translation>Vorgabe</translation>
+    </message>
+    <message>
+      <source>Recovered from the integration points</source>
+      <translation>Aus den Integrationspunkten wiedergewonnen</translation>
+    </message>
+    <message>
+      <source>CalculiX's own</source>
+      <translation>CalculiX' eigene</translation>
+    </message>
+    <message>
+      <source>By default C3D20R, with C3D20 where hourglassing threatens or temperatures are looked for; of first order C3D8I</source>
+      <translation>Ohne Wahl C3D20R, mit C3D20, wo Hourglassing droht oder Temperaturen gesucht werden; erster Ordnung C3D8I</translation>
+    </message>
+    <message>
+      <source>Recovered ones are closer to the truth, of meshes of second order and linear analyses</source>
+      <translation>Wiedergewonnene liegen näher an der Wahrheit, bei Netzen zweiter Ordnung und linearen Analysen</translation>
+    </message>
+    <message>
       <source>{}: the mesh has no faces on {} of {}</source>
       <translation>{}: das Netz hat keine Flächen auf {} von {}</translation>
     </message>

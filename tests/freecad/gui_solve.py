@@ -8,13 +8,14 @@ from unittest import mock
 import FemGui
 import FreeCAD
 import FreeCADGui
+import gui_panel
 import ObjectsFem
 import TestPolycubeSolver
 from gui_support import GuiTest, picture, process_events
 from PySide import QtCore, QtGui
 
 from freecad import polycube
-from freecad.polycube import ccx, commands
+from freecad.polycube import ccx, commands, macro, objects
 
 calculix = TestPolycubeSolver.calculix
 
@@ -166,3 +167,39 @@ class Solve(GuiTest):
         if ccx.find():
             self.assertRegex(told.call_args[0][2], "Neither constraint fixed|No mechanical boundary conditions")  # FreeCAD 0.20; 1.x
         self.assertEqual(self.results(), [])
+
+
+class InThePanel(gui_panel.PanelTest):
+    def test_how_the_mesh_is_solved(self):
+        """Chosen before the mesh, changed after it without a new one, undone while the panel is open; each is in the macro."""
+        lines = []
+        self.enterContext(mock.patch.object(macro, "record", lambda line, _: lines.append(line)))
+        panel = self.open_panel(self.box)
+        self.assertEqual(panel.solving.values(), {"SolverElement": "Default", "SolverStresses": "recovered"})
+        element, stresses = (panel.solving.boxes[name] for name in ("SolverElement", "SolverStresses"))
+        element.setCurrentIndex(element.findText("C3D20"))
+        panel.solving.set_open(True)
+        process_events(0.1)
+        for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
+            if area.isAncestorOf(panel.solving):
+                area.ensureWidgetVisible(panel.solving)
+        picture("solving")
+        self.apply(panel)
+        self.assertEqual(objects.solving_of(panel.obj), {"SolverElement": "C3D20", "SolverStresses": "recovered"})
+        self.assertEqual(len(self.document.UndoNames), 1)
+        stresses.setCurrentIndex(stresses.findText("CalculiX's own"))
+        self.press("Apply")
+        self.assertFalse(panel.process, "the mesh is the same")
+        chosen = {"SolverElement": "C3D20", "SolverStresses": "calculix"}
+        self.assertEqual((objects.solving_of(panel.obj), panel.obj.MeshState), (chosen, objects.CURRENT))
+        self.document.undo()
+        process_events(0.1)
+        self.assertEqual(stresses.currentText(), "Recovered from the integration points")
+        element.setCurrentIndex(0)
+        self.press("Ok")
+        mesh = self.document.PolycubeMesh
+        self.assertEqual(objects.solving_of(mesh), {"SolverElement": "Default", "SolverStresses": "recovered"})
+        said = [line for line in lines if ".Solver" in line]
+        self.assertEqual(len(said), 3, lines)
+        exec("\n".join(said[:2]), {"App": FreeCAD})
+        self.assertEqual(objects.solving_of(mesh), chosen)

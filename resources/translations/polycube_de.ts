@@ -176,6 +176,14 @@
       <translation>Abbrechen</translation>
     </message>
     <message>
+      <source>Error of the stresses</source>
+      <translation>Fehler der Spannungen</translation>
+    </message>
+    <message>
+      <source>Shows in colours how far the stresses of the solved analysis are off, by an estimate: make the mesh finer where it is red</source>
+      <translation>Zeigt in Farben, wie weit die Spannungen der gelösten Analyse nach einer Schätzung abweichen: wo es rot ist, das Netz feiner machen</translation>
+    </message>
+    <message>
       <source>Guide to hexahedral meshes</source>
       <translation>Anleitung zu Hexaedernetzen</translation>
     </message>
@@ -1220,6 +1228,14 @@
       <translation>Spannungen in den Zellen weichen um etwa {} % in der Energie ab, nach der Schätzung von Zienkiewicz und Zhu</translation>
     </message>
     <message>
+      <source>{} ({} %, {} % at its worst node)</source>
+      <translation>{} ({} %, {} % am schlechtesten Knoten)</translation>
+    </message>
+    <message>
+      <source>stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu; most, against the mean stress of the part, on {}</source>
+      <translation>Spannungen in den Zellen weichen um etwa {} % in der Energie ab, nach der Schätzung von Zienkiewicz und Zhu; am meisten, gemessen an der mittleren Spannung des Teils, an {}</translation>
+    </message>
+    <message>
       <source>heat flux</source>
       <translation>Wärmestrom</translation>
     </message>
@@ -1824,6 +1840,14 @@
       <translation>Verschiebung</translation>
     </message>
     <message>
+      <source>Error of the stresses, of the part's mean</source>
+      <translation>Fehler der Spannungen, gemessen am Mittel des Teils</translation>
+    </message>
+    <message>
+      <source>Difference of the stress from cell to cell</source>
+      <translation>Unterschied der Spannung von Zelle zu Zelle</translation>
+    </message>
+    <message>
       <source>{}: {:.4g} (blue) to {:.4g} {} (red). A double click on {} shows more.</source>
       <translation>{}: {:.4g} (blau) bis {:.4g} {} (rot). Ein Doppelklick auf {} zeigt mehr.</translation>
     </message>
@@ -2050,6 +2074,34 @@
     <message>
       <source>it ended with status {}</source>
       <translation>es endete mit Status {}</translation>
+    </message>
+    <message>
+      <source>Element</source>
+      <translation>Element</translation>
+    </message>
+    <message>
+      <source>Stresses</source>
+      <translation>Spannungen</translation>
+    </message>
+    <message>
+      <source>Default</source>
+      <translation>Vorgabe</translation>
+    </message>
+    <message>
+      <source>Recovered from the integration points</source>
+      <translation>Aus den Integrationspunkten wiedergewonnen</translation>
+    </message>
+    <message>
+      <source>CalculiX's own</source>
+      <translation>CalculiX' eigene</translation>
+    </message>
+    <message>
+      <source>By default C3D20R, with C3D20 where hourglassing threatens or temperatures are looked for; of first order C3D8I</source>
+      <translation>Ohne Wahl C3D20R, mit C3D20, wo Hourglassing droht oder Temperaturen gesucht werden; erster Ordnung C3D8I</translation>
+    </message>
+    <message>
+      <source>Recovered ones are closer to the truth, of meshes of second order and linear analyses</source>
+      <translation>Wiedergewonnene liegen näher an der Wahrheit, bei Netzen zweiter Ordnung und linearen Analysen</translation>
     </message>
     <message>
       <source>{}: the mesh has no faces on {} of {}</source>

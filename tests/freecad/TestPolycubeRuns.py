@@ -163,8 +163,14 @@ class Runs(Loaded):
             self.assertIn(found.line(), lines)
             self.assertEqual(len(solution.result.StressError), len(solution.result.NodeNumbers))
             self.assertAlmostEqual(max(solution.result.StressError), max(found.percent.values()), delta=1e-6)
-            worst.append(found.faces[0][1])
-        self.assertLess(worst[1], worst[0])
+            energy = solution.energy_error
+            self.assertEqual((energy.faces[0][0], len(energy.faces)), (hole, 3))
+            self.assertIn("on {} (".format(hole), energy.line())
+            self.assertIn(energy.line(), lines)
+            self.assertEqual(max(solution.result.EnergyError), max(energy.of_nodes().values()))
+            worst.append((found.faces[0][1], energy.faces[0][1]))
+        self.assertLess(worst[1][0], worst[0][0])
+        self.assertLess(worst[1][1], worst[0][1])
 
     def test_certainty_is_said_in_plain_figures(self):
         line = StressError({}, [("Face5", 18.4, 131.7), ("Face7", 0.0634, 9.81)]).line()

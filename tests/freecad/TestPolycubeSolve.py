@@ -311,6 +311,20 @@ class Special(SolveTest):
                 self.assertEqual((mesh.NodeCount, mesh.EdgeCount), (self.mesh(analysis).FemMesh.NodeCount, 0))
                 self.assertEqual(len(solution.result.NodeNumbers), mesh.NodeCount)
 
+    def test_springs_leave_stresses_alone(self):
+        """CalculiX takes them for cells without stress in the means at nodes: a bar that is pulled had a half and a third of its stress at soft springs."""
+        for order in (1, 2):
+            with self.subTest(order=order):
+                part, analysis = self.bar("Face1", PoissonRatio="0")
+                self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+                for face in ("Face3", "Face6"):
+                    self.add(analysis, "Spring", part, face, normalStiffness=1e-6)
+                result = self.solve(analysis, part, order=order, stresses="calculix").result
+                for values, expected in ((result.vonMises, 10), (result.NodeStrainXX, 10 / YOUNG)):
+                    self.assertEqual(len(values), len(result.NodeNumbers))
+                    for found in values:
+                        self.assertAlmostEqual(found / expected, 1, delta=1e-4)
+
     def test_what_is_missing_is_refused_by_name(self):
         part, analysis = self.bar("Face1")
         self.add(analysis, "Gear", part)

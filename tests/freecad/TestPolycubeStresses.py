@@ -227,6 +227,33 @@ class Solved(run_tests.Loaded):
         solver_tests.solver_of(analysis).GeometricalNonlinearity = "nonlinear"
         self.assertEqual(polycube.solve(analysis, folder=self.folder).result.Stresses, "calculix")
 
+    def test_every_result_of_a_run(self):
+        """Of a bar that is pulled while it gets warm, step by step: each has recovered stresses, and the displacements and temperatures of CalculiX."""
+        part, analysis = self.bar("Face1", kind="thermomech")
+        chosen = solver_tests.solver_of(analysis)
+        chosen.ThermoMechSteadyState, chosen.IterationsUserDefinedTimeStepLength, chosen.TimeInitialStep, chosen.TimeEnd = False, True, 0.25, 1.0
+        self.add(analysis, "InitialTemperature", part, initialTemperature=300)
+        self.add(analysis, "Temperature", part, "Face1", Temperature=310)
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        found = {}
+        for kind in ("recovered", "calculix"):
+            results = self.solve(analysis, part, size=2.5, stresses=kind).results
+            self.assertEqual([result.Stresses for result in results], [kind] * 4)
+            found[kind] = [[np.array(getattr(one, name), float) for name in ("DisplacementVectors", "Temperature", "vonMises")] for one in results]
+        for (moved, warm, better), (moved_too, warm_too, own) in zip(*found.values()):
+            np.testing.assert_allclose(moved, moved_too, atol=1e-9)
+            np.testing.assert_allclose(warm, warm_too, atol=1e-6)
+            self.assertLess(np.sqrt(np.mean((better - own) ** 2)), 0.02 * own.max())
+            self.assertTrue((better != own).any())
+
+    def test_buckling_has_calculix_stresses(self):
+        part, analysis = self.loaded()
+        solver_tests.solver_of(analysis).AnalysisType = "buckling"
+        solution = polycube.solve(analysis, folder=self.folder, stresses="recovered")
+        self.assertEqual((len(solution.results), solution.recovered, solution.energy_error), (2, None, None))
+        with open(solution.path, encoding="utf-8") as file:
+            self.assertNotIn("*EL PRINT", file.read())
+
     def test_planes_of_symmetry_of_an_input_file(self):
         part, analysis = self.plate()
         solution = self.solve(analysis, part, size=5)

@@ -8,13 +8,14 @@ from unittest import mock
 import FemGui
 import FreeCAD
 import FreeCADGui
+import gui_panel
 import ObjectsFem
 import TestPolycubeSolver
 from gui_support import GuiTest, picture, process_events
 from PySide import QtCore, QtGui
 
 from freecad import polycube
-from freecad.polycube import ccx, commands
+from freecad.polycube import ccx, commands, macro, objects
 
 calculix = TestPolycubeSolver.calculix
 
@@ -73,6 +74,27 @@ class Solve(GuiTest):
         self.assertEqual([obj.Name for obj in self.pipelines() if obj.ViewObject.isVisible()], [], "FreeCAD 1.x makes one, in the same place")
         self.assertEqual(len(self.document.UndoNames), 1, self.document.UndoNames)
         self.assertFalse(told.call_args and "NOT IN BALANCE" in told.call_args[0][2])
+
+    def test_errors_in_colours(self):
+        """The estimate of Zienkiewicz and Zhu, and where stresses are CalculiX's the difference from cell to cell; nothing before there are results."""
+        if not ccx.find():
+            self.skipTest(ccx.MISSING)
+        for kind, words in (("recovered", "Error of the stresses, of the part's mean"), ("calculix", "Difference of the stress from cell to cell")):
+            self.assertFalse(commands.ShowErrors().IsActive())
+            self.document.PolycubeMesh.SolverStresses = kind
+            with mock.patch.object(QtGui.QMessageBox, "information"):
+                FreeCADGui.runCommand(commands.Solve.Name)
+            self.assertTrue(commands.ShowErrors().IsActive())
+            FreeCADGui.runCommand(commands.ShowErrors.Name)
+            process_events()
+            picture("errors-" + kind)
+            (result,) = self.results()
+            line = FreeCADGui.getMainWindow().statusBar().currentMessage()
+            self.assertTrue(line.startswith(words + ": "), line)
+            most = max(result.EnergyError if kind == "recovered" else result.StressError)
+            self.assertIn(" to {:.4g} % (red)".format(most), line)
+            self.assertTrue(result.Mesh.ViewObject.isVisible())
+            self.document.removeObject(result.Name)
 
     def test_beside_the_result_display_of_freecad(self):
         """FreeCAD's own panel of results opens and paints after the panel of the mesh was open with colours and a cut, and the other way round."""
@@ -145,3 +167,39 @@ class Solve(GuiTest):
         if ccx.find():
             self.assertRegex(told.call_args[0][2], "Neither constraint fixed|No mechanical boundary conditions")  # FreeCAD 0.20; 1.x
         self.assertEqual(self.results(), [])
+
+
+class InThePanel(gui_panel.PanelTest):
+    def test_how_the_mesh_is_solved(self):
+        """Chosen before the mesh, changed after it without a new one, undone while the panel is open; each is in the macro."""
+        lines = []
+        self.enterContext(mock.patch.object(macro, "record", lambda line, _: lines.append(line)))
+        panel = self.open_panel(self.box)
+        self.assertEqual(panel.solving.values(), {"SolverElement": "Default", "SolverStresses": "recovered"})
+        element, stresses = (panel.solving.boxes[name] for name in ("SolverElement", "SolverStresses"))
+        element.setCurrentIndex(element.findText("C3D20"))
+        panel.solving.set_open(True)
+        process_events(0.1)
+        for area in FreeCADGui.getMainWindow().findChildren(QtGui.QScrollArea):
+            if area.isAncestorOf(panel.solving):
+                area.ensureWidgetVisible(panel.solving)
+        picture("solving")
+        self.apply(panel)
+        self.assertEqual(objects.solving_of(panel.obj), {"SolverElement": "C3D20", "SolverStresses": "recovered"})
+        self.assertEqual(len(self.document.UndoNames), 1)
+        stresses.setCurrentIndex(stresses.findText("CalculiX's own"))
+        self.press("Apply")
+        self.assertFalse(panel.process, "the mesh is the same")
+        chosen = {"SolverElement": "C3D20", "SolverStresses": "calculix"}
+        self.assertEqual((objects.solving_of(panel.obj), panel.obj.MeshState), (chosen, objects.CURRENT))
+        self.document.undo()
+        process_events(0.1)
+        self.assertEqual(stresses.currentText(), "Recovered from the integration points")
+        element.setCurrentIndex(0)
+        self.press("Ok")
+        mesh = self.document.PolycubeMesh
+        self.assertEqual(objects.solving_of(mesh), {"SolverElement": "Default", "SolverStresses": "recovered"})
+        said = [line for line in lines if ".Solver" in line]
+        self.assertEqual(len(said), 3, lines)
+        exec("\n".join(said[:2]), {"App": FreeCAD})
+        self.assertEqual(objects.solving_of(mesh), chosen)

@@ -41,7 +41,9 @@ WHY = """What limits the rates: the cantilever's clamped end is singular. Calcul
 of hexahedra and tetrahedra alike: their rate is 2. Recovered ones have a rate of 4 on one block ("by hand"); where blocks meet at an edge inside the part, as
 they do by themselves in a quarter of a tube, cells are less exact beside it and the rate is 2 again, at a quarter of the error. At nodes on free and loaded
 faces recovered stresses are continued from the cells inside. The exact value of LE11 has three digits, half of the last is 0.005; by meshes mapped by hand it is
--105.1 to -105.3. C3D8I is at its best on right angles; where the frame puts a corner of the block structure on a smooth bore its stress there hardly converges.
+-105.0 to -105.3. The values of hole and LE1 are those of such meshes, `sh resources/polycube verify --references` prints them. NAFEMS gives 92.7 for LE1, half
+of whose last digit is 0.0005, more than the errors at the finest: taken as exact it makes LE1's error 0.00036 (92.734) and tet10's 0.00007 (92.707), five times
+as large in place of 0.07 times (the only case above 1.2), and the count of cases at most half 7 of 12. C3D8I is at its best on right angles; where the frame puts a corner of the block structure on a smooth bore its stress there hardly converges.
 The patch test stops at the digits of CalculiX."""
 
 

@@ -117,6 +117,36 @@ class Solve:
             QtGui.QMessageBox.information(FreeCADGui.getMainWindow(), title, "\n".join(solution.notes))
 
 
+class ShowErrors:
+    """Shows how far the stresses of the active analysis can be trusted, in colours."""
+
+    Name = "Polycube_ShowErrors"
+
+    def GetResources(self):
+        return {
+            "Pixmap": resources.icon("Polycube_ShowErrors"),
+            "MenuText": tr("Error of the stresses"),
+            "ToolTip": tr("Shows in colours how far the stresses of the solved analysis are off, by an estimate: make the mesh finer where it is red"),
+        }
+
+    def IsActive(self):
+        return self._result() is not None and not FreeCADGui.Control.activeDialog()
+
+    def Activated(self):
+        from . import result_view
+
+        line = result_view.show(analyses.active(FreeCAD.ActiveDocument), self._result(), result_view.ERRORS)
+        FreeCADGui.getMainWindow().statusBar().showMessage(line)
+        FreeCAD.Console.PrintMessage(line + "\n")
+
+    @staticmethod
+    def _result():
+        from . import result_view
+
+        analysis = FreeCAD.ActiveDocument and analyses.active(FreeCAD.ActiveDocument)
+        return result_view.with_errors(analysis) if analysis else None
+
+
 class Help:
     """Opens the user guide."""
 
@@ -148,4 +178,4 @@ def _give_mesh(analysis):
 
 def register():
     """Adds the commands that FreeCAD does not know yet."""
-    polycube_commands.register((MeshFromShape, Solve, Help))
+    polycube_commands.register((MeshFromShape, Solve, ShowErrors, Help))

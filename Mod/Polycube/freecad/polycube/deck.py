@@ -1,5 +1,6 @@
 """An input file for CalculiX as FreeCAD's writer made it, and what this workbench puts into it: other element types, more cards."""
 
+import collections
 import re
 
 from .errors import InvalidInput
@@ -105,4 +106,21 @@ def without_others(frd, last_node, last_element):
             count += not dropped
         if last is None or line[:3] not in (" -1", " -2") or not dropped:
             found.append(line)
+    return "\n".join(found)
+
+
+def undiluted(frd, text, cells):
+    """The text of a result file whose stresses and strains are means over the cells at a node: CalculiX counts the springs of the input file `text` there as
+    cells without any, which halves them where one cell has one spring. cells: {node: number of its cells}.
+    """
+    springs = collections.Counter(int(node) for node in re.findall(r"^\*ELEMENT, TYPE=SPRINGA.*\n\d+,(\d+),", text, re.MULTILINE))
+    found, is_mean = [], False
+    for line in frd.split("\n"):
+        if line.startswith(" -4"):
+            is_mean = line[5:11].strip() in ("STRESS", "TOSTRA")
+        node = int(line[3:13]) if is_mean and line.startswith(" -1") else None
+        if node in springs and node in cells:
+            values = [float(line[at : at + 12]) * (1 + springs[node] / cells[node]) for at in range(13, len(line.rstrip()), 12)]
+            line = line[:13] + "".join("{:12.5E}".format(value) for value in values)
+        found.append(line)
     return "\n".join(found)

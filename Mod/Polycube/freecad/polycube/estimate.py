@@ -28,26 +28,40 @@ class StressError:
 
 class EnergyError:
     """share: estimated error of the stresses in the energy norm, of the whole part; of_cells (m,): the error of each cell over the mean stress of the part, both
-    by the energy in a volume.
+    by the energy in a volume; faces: the worst, (name, percent, percent at the worst node), once `find_faces` was asked.
     """
 
     def __init__(self, share, of_cells, recovered):
-        self.share, self.of_cells, self._recovered = share, of_cells, recovered
+        self.share, self.of_cells, self.faces, self._recovered = share, of_cells, [], recovered
 
     def line(self):
         """One line for the log."""
-        return tr("stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu").format(_two_digits(100 * self.share))
+        share = _two_digits(100 * self.share)
+        if not self.faces:
+            return tr("stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu").format(share)
+        named = [tr("{} ({} %, {} % at its worst node)").format(name, _two_digits(mean), _two_digits(most)) for name, mean, most in self.faces]
+        text = tr("stresses inside the cells are off by about {} % in energy, by the estimate of Zienkiewicz and Zhu; most, against the mean stress of the part, on {}")
+        return text.format(share, ", ".join(named))
 
-    def show_in(self, result):
-        """Adds `EnergyError`, % by node, the largest of its cells, to the result object."""
+    def of_nodes(self):
+        """{node: %}, the largest of its cells."""
         import numpy
 
         worst = numpy.zeros(len(self._recovered.nodes))
         numpy.maximum.at(worst, self._recovered.cells, 100 * self.of_cells[:, None])
-        of_node = dict(zip(self._recovered.nodes.tolist(), worst.tolist()))
+        return dict(zip(self._recovered.nodes.tolist(), worst.tolist()))
+
+    def find_faces(self, mesh):
+        """Finds the CAD faces where the error is largest. mesh: a GroupedMesh."""
+        percent = self.of_nodes()
+        self.faces = _worst_faces(mesh, percent, percent)
+
+    def show_in(self, result):
+        """Adds `EnergyError`, % by node, the largest of its cells, to the result object."""
+        percent = self.of_nodes()
         if not hasattr(result, "EnergyError"):
             result.addProperty("App::PropertyFloatList", "EnergyError", "NodeData", "Zienkiewicz-Zhu: largest error of the cells at a node, over the mean stress, %")
-        result.EnergyError = [of_node.get(node, 0.0) for node in result.NodeNumbers]
+        result.EnergyError = [percent.get(node, 0.0) for node in result.NodeNumbers]
 
 
 def energy_error(recovered, stiffness):
@@ -96,6 +110,11 @@ def stress_error(path, result, mesh):
         result.addProperty("App::PropertyFloatList", "StressError", "NodeData", "Largest difference of the stress between the cells at a node, %")
     result.StressError = [percent.get(node, 0.0) for node in result.NodeNumbers]
     wrong = {node: percent.get(node, 0.0) / 100 * stress for node, stress in zip(result.NodeNumbers, result.vonMises)}
+    return StressError(percent, _worst_faces(mesh, wrong, percent))
+
+
+def _worst_faces(mesh, wrong, percent):
+    """[(name, mean of `wrong`, largest `percent`)] of the CAD faces where the mean is largest. wrong, percent: by node."""
     faces = []
     for number, face in enumerate(mesh.faces, 1):
         elements = mesh.elements(face, "Face")
@@ -104,8 +123,7 @@ def stress_error(path, result, mesh):
             # by the mean over the face: one node at a sharp corner, where stresses have no limit, does not make a face the worst
             mean = sum(wrong.get(node, 0.0) * weight for node, weight in weights.items()) / sum(weights.values())
             faces.append(("Face{}".format(number), mean, max(percent.get(node, 0.0) for node in weights)))
-    faces = sorted((face for face in faces if face[1] > 0), key=lambda face: -face[1])
-    return StressError(percent, faces[:WORST])
+    return sorted((face for face in faces if face[1] > 0), key=lambda face: -face[1])[:WORST]
 
 
 def _read(path):

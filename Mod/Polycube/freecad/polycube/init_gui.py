@@ -31,7 +31,8 @@ class PolycubeWorkbench(FreeCADGui.Workbench):
         del FemGui, femcommands
         known = FreeCADGui.listCommands()
         fem = [next((name for name in names if name in known), None) for names in _FEM_COMMANDS]
-        names = [commands.MeshFromShape.Name, "Separator", *filter(None, fem), "Separator", commands.Solve.Name, "Separator", commands.Help.Name]
+        ours = [commands.MeshFromShape.Name, commands.Solve.Name, commands.ShowErrors.Name, commands.Help.Name]
+        names = [ours[0], "Separator", *filter(None, fem), "Separator", *ours[1:3], "Separator", ours[3]]
         self.appendToolbar("Polycube", names)
         self.appendMenu("&Polycube", names)
 

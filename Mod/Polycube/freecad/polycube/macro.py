@@ -57,6 +57,12 @@ def set_analysis(obj, analysis):
     record("polycube.set_analysis({}, {})".format(name(obj), name(analysis)), obj)
 
 
+def set_solving(obj, changed):
+    """A mesh object is solved in another way now; changed: properties."""
+    for one, value in changed.items():
+        record("{}.{} = {!r}".format(name(obj), one, value), obj)
+
+
 def made_empty(obj):
     """A mesh object without cells was made of its part."""
     record("polycube.create_fem_mesh({}, only_object=True)".format(name(part_of(obj))), obj)

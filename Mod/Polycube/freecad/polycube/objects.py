@@ -28,10 +28,9 @@ _RESULTS = [
     ("App::PropertyString", "MeshedCells", "Polycube Result", "Fingerprint of the cells of the present mesh"),
     ("App::PropertyFloatList", "MeshedShape", "Polycube Result", "Signature of the shape of the present mesh"),
 ]
-#: what polycube.solve solves the mesh with: "Default", or one of deck.TYPES
-_ELEMENT, _ELEMENTS = "SolverElement", ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"]
-#: which stresses polycube.solve gives: stresses.KINDS
-_STRESSES = "SolverStresses"
+ELEMENT, STRESSES = "SolverElement", "SolverStresses"
+#: what polycube.solve solves the mesh with: the default, or one of deck.TYPES; and which stresses it gives. The first of each is what a new mesh has.
+SOLVING = {ELEMENT: ["Default", "C3D20R", "C3D20", "C3D8I", "C3D8"], STRESSES: list(stresses.KINDS)}
 #: property that documents do not have which are older than the bounds on counts
 _BOUND = "MeshSizeFromCurvature"
 _HIDDEN = ("Report", "Blocks", "MeshedOptions", "MeshedCells", "MeshedShape")
@@ -51,13 +50,27 @@ def make(document, part, name="PolycubeMesh"):
 
 def element_of(obj):
     """The element type that the mesh object asks for, or None."""
-    element = getattr(obj, _ELEMENT, _ELEMENTS[0])
-    return None if element == _ELEMENTS[0] else element
+    element = solving_of(obj)[ELEMENT]
+    return None if element == SOLVING[ELEMENT][0] else element
 
 
 def stresses_of(obj):
     """Which stresses the mesh object asks for."""
-    return getattr(obj, _STRESSES, stresses.RECOVERED)
+    return solving_of(obj)[STRESSES]
+
+
+def solving_of(obj):
+    """{property in SOLVING: its value} of a mesh object; of None those of a new one."""
+    return {name: getattr(obj, name, choices[0]) for name, choices in SOLVING.items()}
+
+
+def set_solving(obj, values):
+    """Gives a mesh object those of solving_of that are others, and returns them. Call inside a transaction."""
+    before = solving_of(obj)
+    changed = {name: value for name, value in values.items() if value != before[name]}
+    for name, value in changed.items():
+        setattr(obj, name, value)
+    return changed
 
 
 def is_polycube(obj):
@@ -157,14 +170,14 @@ class PolycubeMesh(Stateless):
         option_table.add_properties(obj)
         if not hasattr(obj, "Refinements"):
             obj.addProperty("App::PropertyLinkListGlobal", "Refinements", "Polycube", "What is asked of the mesh at places of the part")
-        if not hasattr(obj, _ELEMENT):
+        if not hasattr(obj, ELEMENT):
             meaning = "Element that polycube.solve takes: by default C3D20R with C3D20 where hourglassing threatens, and C3D8I of first order"
-            obj.addProperty("App::PropertyEnumeration", _ELEMENT, "Polycube", meaning)
-            setattr(obj, _ELEMENT, _ELEMENTS)
-        if not hasattr(obj, _STRESSES):
+            obj.addProperty("App::PropertyEnumeration", ELEMENT, "Polycube", meaning)
+            setattr(obj, ELEMENT, SOLVING[ELEMENT])
+        if not hasattr(obj, STRESSES):
             meaning = "Stresses that polycube.solve gives: recovered from the integration points, of second order, or extrapolated by CalculiX"
-            obj.addProperty("App::PropertyEnumeration", _STRESSES, "Polycube", meaning)
-            setattr(obj, _STRESSES, list(stresses.KINDS))
+            obj.addProperty("App::PropertyEnumeration", STRESSES, "Polycube", meaning)
+            setattr(obj, STRESSES, SOLVING[STRESSES])
         for kind, name, group, meaning in _RESULTS:
             if not hasattr(obj, name):
                 obj.addProperty(kind, name, group, meaning)

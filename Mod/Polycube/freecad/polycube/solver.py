@@ -1,5 +1,6 @@
 """Solves an analysis by CalculiX: FreeCAD's writer makes the input file, what it leaves out of it on hexahedra is added, FreeCAD loads the results."""
 
+import collections
 import importlib
 import os
 import queue
@@ -67,8 +68,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
             log(line)
     run(solution, log, cancel)
     if solution.springs:
-        mesh = tools.mesh.FemMesh
-        _change(os.path.splitext(solution.path)[0] + ".frd", lambda text: deck.without_others(text, max(mesh.Nodes), max(mesh.Volumes)))
+        _without_springs(solution.path, tools.mesh.FemMesh)
     if solution.recover:
         solution.recovered = solution.recover()
         _tell(analysis, solution.recovered.line() if solution.recovered else "", log)
@@ -94,6 +94,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
             stresses_of.mark(solution.results, solution.recovered)
             if solution.recovered:
                 solution.energy_error = estimate.energy_error(solution.recovered, solution.stiffness)
+                solution.energy_error.find_faces(solution.mesh)
                 solution.energy_error.show_in(solution.result)
     for error in filter(None, (solution.stress_error, solution.energy_error)):
         _tell(analysis, error.line(), log)
@@ -211,6 +212,14 @@ def _recovers(tools, member, stresses):
     """Whether stresses are recovered: of linear runs that have some."""
     linear = tools.solver.GeometricalNonlinearity != "nonlinear" and not member.mats_nonlinear
     return stresses == stresses_of.RECOVERED and linear and tools.solver.AnalysisType in _WITH_REACTIONS
+
+
+def _without_springs(path, mesh):
+    """Has the result file beside the input file tell of the part alone."""
+    cells = collections.Counter(node for volume in mesh.Volumes for node in mesh.getElementNodes(volume))
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    _change(os.path.splitext(path)[0] + ".frd", lambda frd: deck.undiluted(deck.without_others(frd, max(mesh.Nodes), max(mesh.Volumes)), text, cells))
 
 
 def _change(path, change):

@@ -21,6 +21,7 @@ from .result_section import ResultSection
 from .run import LiveSession, Run
 from .run_section import RunSection, stage_words
 from .size_hint import SizeHint
+from .solving_section import SolvingSection
 from .words import count, decimal, noop, tr
 
 _TITLE = noop("Hexahedral mesh")
@@ -108,6 +109,7 @@ class MeshPanel:
         self.advanced = Section(tr("Advanced"), "advanced_section", is_open=False)
         self.advanced_form = fields.OptionForm(advanced, self.changed)
         self.advanced.body.addWidget(self.advanced_form)
+        self.solving = SolvingSection(objects.solving_of(self.obj))
         self._forms = (self.size_form, self.axes.form, self.refine.form, self.advanced_form)
         head = QtGui.QFormLayout()
         head.addRow(QtGui.QLabel(tr("Part:")), form.part)
@@ -120,7 +122,7 @@ class MeshPanel:
         parameters = QtGui.QVBoxLayout(form.parameters)
         parameters.setContentsMargins(0, 0, 0, 0)
         parameters.addLayout(head)
-        for section in (size, self.axes, self.refine, self.advanced):
+        for section in (size, self.axes, self.refine, self.advanced, self.solving):
             parameters.addWidget(section)
         form.run = RunSection()
         form.run.best.clicked.connect(self.take_the_best)
@@ -186,15 +188,17 @@ class MeshPanel:
         return self._close()
 
     def _keep_parameters(self):
-        """The mesh object gets options and analysis of the panel, without being meshed, where they are others."""
+        """The mesh object gets options, analysis and way of solving of the panel, without being meshed, where they are others."""
         options, before = self._parameters(), option_table.read(self.obj)
         analysis, held_by = self.analysis_box.chosen(), objects.analysis_of(self.obj)
-        if options == before and analysis == held_by:
+        if options == before and analysis == held_by and self.solving.values() == objects.solving_of(self.obj):
             return
         with api.transaction(self.obj.Document, tr("Mesh parameters")):
             option_table.write(self.obj, options)
             analyses.move(self.obj, analysis)
+            solving = objects.set_solving(self.obj, self.solving.values())
         macro.set_options(self.obj, before, options)
+        macro.set_solving(self.obj, solving)
         if analysis != held_by:
             macro.set_analysis(self.obj, analysis)
 
@@ -228,6 +232,8 @@ class MeshPanel:
             self._show_run()
             return
         if self._nothing_has_changed():
+            self._keep_parameters()
+            self.note()
             self.tell(tr("Nothing has changed since this mesh was made."))
             return
         if not self._may_go_on():
@@ -446,6 +452,7 @@ class MeshPanel:
                 analysis.removeObject(other)
                 other.ViewObject.hide()
             analyses.move(self.obj, analysis)
+            solving = objects.set_solving(self.obj, self.solving.values())
             warnings = objects.set_mesh(self.obj, result, self._meshed_options, self._meshed_shape, mesh, self._asked)
         self.note()
         if is_new:
@@ -453,6 +460,7 @@ class MeshPanel:
             macro.created(self.obj, self._meshed_options)
         else:
             macro.updated(self.obj, self._before, self._meshed_options)
+        macro.set_solving(self.obj, solving)
         if analysis != held_by:
             macro.set_analysis(self.obj, analysis)
         return warnings
@@ -511,6 +519,7 @@ class MeshPanel:
         return {
             "options": options,
             "analysis": objects.analysis_of(self.obj) if has_mesh else None,
+            "solving": objects.solving_of(self.obj) if has_mesh else None,
             "part": self.part.Label if self.part_exists() else tr("none"),
         }
 
@@ -527,6 +536,8 @@ class MeshPanel:
         if now["options"] is not None and now["options"] != before["options"]:
             self._follow_options(before["options"] or {}, now["options"])
         self._filling = False
+        if now["solving"] and now["solving"] != before["solving"]:
+            self.solving.show_values(now["solving"])
         self.analysis_box.follow(now["analysis"], now["analysis"] != before["analysis"])
         self.refine.follow()
         self.result.follow()

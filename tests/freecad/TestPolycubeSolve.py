@@ -325,6 +325,24 @@ class Special(SolveTest):
         with self.assertRaisesRegex(polycube.InvalidInput, "^Pressure: nothing of the mesh is where it acts"):
             self.solve(analysis, part)
 
+    def test_several_meshes_are_refused_by_name(self):
+        part, analysis = self.bar("Face1")
+        meshes = [polycube.create_fem_mesh(part, size=5, order=order, min_layers=1, analysis=analysis) for order in (1, 2)]
+        with self.assertRaisesRegex(polycube.InvalidInput, "has several meshes, one is needed: PolycubeMesh, PolycubeMesh"):
+            self.solve(analysis, part)
+        self.document.removeObject(meshes[0].Name)
+        self.assertEqual(self.solve(analysis, part).element, "C3D20R")
+
+    def test_a_folder_that_cannot_be_made_is_refused(self):
+        part, analysis = self.bar("Face1")
+        polycube.create_fem_mesh(part, size=5, min_layers=1, analysis=analysis)
+        path = os.path.join(self.folder, "file")
+        with open(path, "w", encoding="utf-8"):
+            pass
+        for folder in (path, os.path.join(path, "below"), 5):
+            with self.assertRaisesRegex(polycube.InvalidInput, "^no folder for CalculiX' files: "):
+                polycube.solve(analysis, folder=folder)
+
     def test_what_the_part_has_no_more_is_refused_by_name(self):
         part, analysis = self.bar("Face1")
         polycube.create_fem_mesh(part, size=5, analysis=analysis)

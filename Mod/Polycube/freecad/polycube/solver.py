@@ -10,7 +10,7 @@ import time
 
 import FreeCAD
 
-from . import api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
+from . import analyses, api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads, ties
 from . import stresses as stresses_of
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh, loss, not_captured
@@ -39,6 +39,7 @@ class Solution:
         self.recovered, self.energy_error = None, None
         # for what is to be done after the run: a GroupedMesh; whether there are springs; what makes the balance, and the stresses; MPa of the cells
         self.mesh, self.springs, self.weigh, self.recover, self.stiffness = None, False, None, None, None
+        self.ties = []  # FreeCAD's entries of them
 
     @property
     def result(self):
@@ -72,6 +73,11 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     if solution.recover:
         solution.recovered = solution.recover()
         _tell(analysis, solution.recovered.line() if solution.recovered else "", log)
+    for line in ties.not_tied(solution.path, solution.ties, solution.mesh):
+        FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
+        solution.notes.append(line)
+        if log:
+            log(line)
     if solution.weigh:
         solution.balance = solution.weigh()
     if solution.balance:
@@ -125,6 +131,9 @@ def prepared(analysis, solver, folder):
         (solver,) = ours
     elif solver not in ours:
         raise InvalidInput(tr("{} is no solver of the kind CalculiX Standard in {}").format(getattr(solver, "Label", solver), analysis.Label))
+    meshes = analyses.other_meshes(analysis)
+    if len(meshes) > 1:
+        raise InvalidInput(tr("{} has several meshes, one is needed: {}").format(analysis.Label, ", ".join(mesh.Label for mesh in meshes)))
     _check_references(analysis)
     from femtools import ccxtools
 
@@ -133,7 +142,10 @@ def prepared(analysis, solver, folder):
     if folder is None:
         tools.setup_working_dir()
     else:
-        os.makedirs(folder, exist_ok=True)
+        try:
+            os.makedirs(folder, exist_ok=True)
+        except (OSError, TypeError) as error:
+            raise InvalidInput(tr("no folder for CalculiX' files: {}").format(error)) from None
         tools.setup_working_dir(folder)
     trouble = [line for line in tools.check_prerequisites().splitlines() if line.strip()]
     if any(kind in ("bearing", "spring") for kind, _ in _special(analysis)):
@@ -190,6 +202,9 @@ def write(tools, element=None, stresses=None):
     solution.mesh, solution.springs = mesh, any(kind == "spring" for kind, _ in special)
     if solution.springs:
         _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
+    if mesh and getter.member.cons_tie:
+        solution.ties = getter.member.cons_tie
+        _change(path, lambda text: _noted(ties.with_reaches(text, solution.ties, mesh), notes))
     if mesh and tools.solver.AnalysisType in _WITH_REACTIONS and tools.solver.GeometricalNonlinearity != "nonlinear":
         solution.weigh = lambda: balance.check(mesh, getter.member, cards.loads, cards.supports, path, SUPPORTS)
     if recovers:
@@ -211,6 +226,13 @@ def _recovers(tools, member, stresses):
     """Whether stresses are recovered: of linear runs that have some."""
     linear = tools.solver.GeometricalNonlinearity != "nonlinear" and not member.mats_nonlinear
     return stresses == stresses_of.RECOVERED and linear and tools.solver.AnalysisType in _WITH_REACTIONS
+
+
+def _noted(changed, notes):
+    """Of (text, lines) the text; the lines are added to notes."""
+    text, lines = changed
+    notes += lines
+    return text
 
 
 def _change(path, change):
@@ -344,7 +366,7 @@ def run(solution, log=None, cancel=None):
     threads = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx").GetInt("AnalysisNumCPUs", 1)
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads if threads > 1 else os.cpu_count() or 1))
     folder, name = os.path.split(os.path.splitext(solution.path)[0])
-    for ending in (".frd", ".dat"):  # those of an earlier run are no results of this one
+    for ending in (".frd", ".dat", ties.MISSED):  # those of an earlier run are no results of this one
         if os.path.exists(os.path.join(folder, name + ending)):
             os.remove(os.path.join(folder, name + ending))
     child = subprocess.Popen(

@@ -2048,6 +2048,10 @@
       <translation>{}: das Netz erfasst {} nicht; machen Sie es noch einmal</translation>
     </message>
     <message>
+      <source>the supports leave the part free to move as a whole in {} of 6 ways: displacements mean nothing</source>
+      <translation>die Lager lassen dem Teil {} von 6 Bewegungen als Ganzes frei: Verschiebungen sagen nichts aus</translation>
+    </message>
+    <message>
       <source>{}: shares nodes with a transform constraint</source>
       <translation>{}: hat Knoten mit einer Transformation gemeinsam</translation>
     </message>

@@ -20,6 +20,8 @@ from .words import tr
 SUPPORTS = "POLYCUBE_SUPPORTS"
 #: kinds of analysis whose reactions are printed
 _WITH_REACTIONS = ("static", "thermomech")
+#: Theory: eigenvalue below which a motion of the whole part is not held, by the mean over what is; edges of a thousandth of the part's size have 1e-7 in it
+_HELD = 1e-12
 #: seconds between two questions whether to stop
 _PATIENCE = 0.1
 
@@ -180,6 +182,8 @@ def write(tools, element=None, stresses=None):
     entries = {name[5:]: getattr(getter.member, name) for name in vars(getter.member) if name.startswith("cons_")}
     _check_found(entries)
     cards = _cards(tools, mesh, getter.member, entries, special)
+    if mesh and tools.solver.AnalysisType in _WITH_REACTIONS:
+        notes += _free(mesh, entries, special, cards.held)
     files = writer.FemInputWriterCcx(tools.analysis, tools.solver, tools.mesh, getter.member, tools.working_dir, getter.mat_geo_sets)
     tools.inp_file_name = path = files.write_solver_input()
     if not path:
@@ -306,6 +310,27 @@ def _check_found(entries):
         lost = loss(entry)
         if lost:
             raise InvalidInput("{}: {}".format(entry["Object"].Label, lost))
+
+
+def _free(mesh, entries, special, held):
+    """A line where supports leave one solid free to move as a whole: CalculiX often ends without an error there, and moves it by some amount."""
+    import numpy
+
+    others = any(entries.get(kind) for kind in ("contact", "tie", "transform")) or any(kind in ("bearing", "spring") for kind, _ in special)
+    rows = [(node, axis - 1) for node, axes in held.items() for axis in sorted(axes)]
+    if others or not rows or len(mesh.solids()) != 1:
+        return []
+    places = mesh.Nodes
+    everywhere = numpy.array([place[:] for place in places.values()])
+    centre, size = everywhere.mean(axis=0), numpy.ptp(everywhere, axis=0).max()
+    at = (numpy.array([places[node][:] for node, _ in rows]) - centre) / size
+    along = numpy.eye(3)[[axis for _, axis in rows]]
+    # the motion of a point at r is t + w x r; along an axis e that is e t + (r x e) w
+    motions = numpy.hstack([along, numpy.cross(at, along)])
+    free = 6 - numpy.linalg.matrix_rank(motions.T @ motions / len(rows), tol=_HELD)
+    if not free:
+        return []
+    return [tr("the supports leave the part free to move as a whole in {} of 6 ways: displacements mean nothing").format(free)]
 
 
 def _cards(tools, mesh, member, entries, special):

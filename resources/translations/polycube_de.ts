@@ -2016,6 +2016,14 @@
       <translation>{} ist kein Löser der Art CalculiX Standard in {}</translation>
     </message>
     <message>
+      <source>{} has several meshes, one is needed: {}</source>
+      <translation>{} hat mehrere Netze, eins wird gebraucht: {}</translation>
+    </message>
+    <message>
+      <source>no folder for CalculiX' files: {}</source>
+      <translation>kein Ordner für die Dateien von CalculiX: {}</translation>
+    </message>
+    <message>
       <source>stresses are {} or {}, not {}</source>
       <translation>Spannungen sind {} oder {}, nicht {}</translation>
     </message>
@@ -2066,6 +2074,10 @@
     <message>
       <source>{}: the mesh does not capture {}; make it again</source>
       <translation>{}: das Netz erfasst {} nicht; machen Sie es noch einmal</translation>
+    </message>
+    <message>
+      <source>the supports leave the part free to move as a whole in {} of 6 ways: displacements mean nothing</source>
+      <translation>die Lager lassen dem Teil {} von 6 Bewegungen als Ganzes frei: Verschiebungen sagen nichts aus</translation>
     </message>
     <message>
       <source>{}: shares nodes with a transform constraint</source>
@@ -2250,6 +2262,14 @@
     <message>
       <source>{} more</source>
       <translation>{} weitere</translation>
+    </message>
+    <message>
+      <source>{}: its tolerance is 0; nodes within {:.3g} mm of the other face are tied</source>
+      <translation>{}: die Toleranz ist 0; gebunden werden Knoten bis {:.3g} mm vor der anderen Fläche</translation>
+    </message>
+    <message>
+      <source>{}: {} of {} nodes are at the other face and not tied to it; its tolerance may be too small</source>
+      <translation>{}: {} von {} Knoten liegen an der anderen Fläche und sind nicht an sie gebunden; die Toleranz ist vielleicht zu klein</translation>
     </message>
     <message>
       <source>{}: {} is no solid of {}</source>

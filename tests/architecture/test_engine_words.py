@@ -23,7 +23,7 @@ SAYS = re.compile(
     r"InvalidInput|StageFailed|Unusable|Standard_Failure|OutOfTime|\bfail\(|\badd\(|warnings\.|lines\.push_back|warn_of|thin_walls\.|coarse_circles\.|constraints\.push_back"
     r"|kNothingPasses|EdgeCapture|\.reason =|\.name =|string (text|line|start|name|bound) =|text \+=|faces \+=|return .*(Gmsh|wall)|char\* kind ="
 )
-SAYS_NOT = re.compile(r"monitor_?\.log|[Pp]lan\b.*name|\.name = \"(sharp|no) CAD|add\(\", other|\.meaning|arrays\.add|invalid_argument|std::cerr|faults|fit: cell at")
+SAYS_NOT = re.compile(r"monitor_?\.log|[Pp]lan\b.*name|\.name = \"(sharp|no) CAD|add\(\", (other|without) |\.meaning|arrays\.add|invalid_argument|std::cerr|faults|fit: cell at")
 #: The engine's own slips, of which a user is told that there was one, in English.
 SLIPS = re.compile(
     r"on its plane|the (quantization|block scales|structure|association|map does not put) |the map does not have one|a chart('s| refers| has)|a boundary triangle|a tetrahedron refers"

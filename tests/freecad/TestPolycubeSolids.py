@@ -440,6 +440,27 @@ class Interfaces(BarsTest):
         self.assertAlmostEqual(carried["Tie", "members"] / carried["Tie", "twice"], 1, delta=0.01)
         self.assertLess(max(carried["Contact", "once"], carried["Contact", "members"]), 0.8 * carried["Tie", "twice"])
 
+    def test_a_tie_without_a_tolerance(self):
+        """FreeCAD's tie has a tolerance of 0, and hardly a node is on the other bore then; the one that is put in its place ties them as if they were common. One
+        that is too small is told, nodes of the pin outside the plate are not."""
+        moved, notes = {}, {}
+        for name, interfaces, tolerance in (("common", "conform", None), ("default", "separate", 0), ("small", "separate", 1e-3)):
+            members, whole = self.pinned(shared=False)
+            analysis = self.analysis(whole, ["Face1"])
+            self.add(analysis, "Force", members[1], "Face2", Force=1000, Direction=(whole, ["Edge1"]))
+            if tolerance is not None:
+                self.between(analysis, "Tie", *((member, self.round_face(member)) for member in reversed(members)))
+                self.document.getObject("Tie").Tolerance = tolerance
+            polycube.create_fem_mesh(whole, size=3, min_layers=1, interfaces=interfaces, analysis=analysis)
+            solution = self.solve(analysis, whole)
+            moved[name], notes[name] = max(solution.result.DisplacementLengths), solution.notes
+        self.assertAlmostEqual(moved["default"] / moved["common"], 1, delta=0.05)
+        self.assertEqual(notes["common"], [])
+        self.assertEqual(len(notes["default"]), 1, notes["default"])
+        self.assertRegex(notes["default"][0], r"^Tie: its tolerance is 0; nodes within 0\.\d+ mm of the other face are tied$")
+        self.assertEqual(len(notes["small"]), 1, notes["small"])
+        self.assertRegex(notes["small"][0], r"^Tie: \d+ of \d+ nodes are at the other face and not tied to it; its tolerance may be too small$")
+
     def test_common_nodes_are_no_contact(self):
         members, whole = self.pinned(shared=False)
         analysis = self.analysis(whole, ["Face1"])

@@ -339,6 +339,36 @@ class Special(SolveTest):
         with self.assertRaisesRegex(polycube.InvalidInput, "^Pressure: nothing of the mesh is where it acts"):
             self.solve(analysis, part)
 
+    def test_several_meshes_are_refused_by_name(self):
+        part, analysis = self.bar("Face1")
+        meshes = [polycube.create_fem_mesh(part, size=5, order=order, min_layers=1, analysis=analysis) for order in (1, 2)]
+        with self.assertRaisesRegex(polycube.InvalidInput, "has several meshes, one is needed: PolycubeMesh, PolycubeMesh"):
+            self.solve(analysis, part)
+        self.document.removeObject(meshes[0].Name)
+        self.assertEqual(self.solve(analysis, part).element, "C3D20R")
+
+    def test_a_folder_that_cannot_be_made_is_refused(self):
+        part, analysis = self.bar("Face1")
+        polycube.create_fem_mesh(part, size=5, min_layers=1, analysis=analysis)
+        path = os.path.join(self.folder, "file")
+        with open(path, "w", encoding="utf-8"):
+            pass
+        for folder in (path, os.path.join(path, "below"), 5):
+            with self.assertRaisesRegex(polycube.InvalidInput, "^no folder for CalculiX' files: "):
+                polycube.solve(analysis, folder=folder)
+
+    def test_a_part_that_can_move_as_a_whole_is_told(self):
+        """Held along X by one end, then in Y and Z at one corner, then in Y at another."""
+        part, analysis = self.bar()
+        self.add(analysis, "Displacement", part, "Face1", xFree=False, xFix=True)
+        self.add(analysis, "Force", part, "Face2", Force=1000, Direction=(part, ["Face2"]))
+        corners = {tuple(vertex.Point): "Vertex{}".format(n) for n, vertex in enumerate(part.Shape.Vertexes, 1)}
+        for ways, corner, more in ((3, (0, 0, 0), ("y", "z")), (1, (0, 0, 10), ("y",)), (0, None, ())):
+            line = "the supports leave the part free to move as a whole in {} of 6 ways: displacements mean nothing".format(ways)
+            self.assertEqual([note for note in self.solve(analysis, part).notes if "whole in" in note], [line] if ways else [])
+            if corner:
+                self.add(analysis, "Displacement", part, corners[corner], **{axis + end: end == "Fix" for axis in more for end in ("Free", "Fix")})
+
     def test_what_the_part_has_no_more_is_refused_by_name(self):
         part, analysis = self.bar("Face1")
         polycube.create_fem_mesh(part, size=5, analysis=analysis)

@@ -9,6 +9,7 @@ import Part
 import TestPolycubeRuns as run_tests
 import TestPolycubeSolve as solve_tests
 import TestPolycubeSolver as solver_tests
+from FreeCAD import Vector
 
 from freecad import polycube
 from freecad.polycube import balance, estimate, recovery, stresses, symmetry
@@ -270,3 +271,33 @@ class Solved(run_tests.Loaded):
             with open(solution.path, "w", encoding="utf-8") as file:
                 file.write(text.replace("*END STEP", more))
             self.assertEqual(symmetry.planes(solution.path, found.nodes.tolist(), found.points, sides), [])
+        # a force along a plane leaves the others, though these have nodes on the edges that they share with it
+        on_plane = planes[0][1]
+        for axis, left in ((2, [1, 2]), (1, [0, 1, 2])):
+            rows = "".join("{},{},1.\n".format(found.nodes[node], axis) for node in on_plane)
+            with open(solution.path, "w", encoding="utf-8") as file:
+                file.write(text.replace("*END STEP", "*CLOAD\n" + rows + "*END STEP"))
+            again = symmetry.planes(solution.path, found.nodes.tolist(), found.points, sides)
+            self.assertEqual([axis for axis, _ in again], left)
+            for axis, nodes in again:
+                self.assertEqual(len(nodes), (np.abs(found.points[:, axis]) < 1e-6).sum())
+
+    def test_a_force_along_a_plane_that_is_held_across(self):
+        """A cube drawn along such a plane has the same shear in it as everywhere, which an image on the other side would take away."""
+        part = self.part(Part.makeBox(20, 20, 20))
+        face = {place: "Face{}".format(n) for n, f in enumerate(part.Shape.Faces, 1) for place in [tuple(round(x) for x in f.CenterOfMass)]}
+        analysis = self.analysis(part, [face[20, 10, 10]], PoissonRatio="0")
+        self.add(analysis, "Displacement", part, face[0, 10, 10], xFree=False, xFix=True)
+        self.add(analysis, "Force", part, face[0, 10, 10], Force=10000, Direction=(part, ["Edge{}".format(self.along_y(part))]))
+        # an even pressure across adds stresses that an error in the shear is small beside
+        for y, z in ((0, 10), (20, 10), (10, 0), (10, 20)):
+            self.add(analysis, "Pressure", part, face[10, y, z], Pressure=500)
+        solution = self.solve(analysis, part, size=4)
+        places = self.mesh(analysis).FemMesh.Nodes
+        middle = [n for n, node in enumerate(solution.result.NodeNumbers) if places[node].x < 1e-6 and (places[node] - Vector(0, 10, 10)).Length < 3]
+        self.assertTrue(middle)
+        for row in middle:
+            self.assertGreater(abs(solution.result.NodeStressXY[row]), 15)
+
+    def along_y(self, part):
+        return next(n for n, edge in enumerate(part.Shape.Edges, 1) if abs(edge.tangentAt(edge.FirstParameter).y) > 0.9)

@@ -11,7 +11,7 @@ import time
 
 import FreeCAD
 
-from . import api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads
+from . import analyses, api, balance, ccx, cells, compat, deck, estimate, fem_mesh, job, objects, shapes, special_loads, ties
 from . import stresses as stresses_of
 from .errors import Cancelled, InvalidInput, SolverFailed
 from .load_sets import GroupedMesh, loss, not_captured
@@ -21,6 +21,8 @@ from .words import tr
 SUPPORTS = "POLYCUBE_SUPPORTS"
 #: kinds of analysis whose reactions are printed
 _WITH_REACTIONS = ("static", "thermomech")
+#: Theory: eigenvalue below which a motion of the whole part is not held, by the mean over what is; edges of a thousandth of the part's size have 1e-7 in it
+_HELD = 1e-12
 #: seconds between two questions whether to stop
 _PATIENCE = 0.1
 
@@ -40,6 +42,7 @@ class Solution:
         self.recovered, self.energy_error = None, None
         # for what is to be done after the run: a GroupedMesh; whether there are springs; what makes the balance, and the stresses; MPa of the cells
         self.mesh, self.springs, self.weigh, self.recover, self.stiffness = None, False, None, None, None
+        self.ties = []  # FreeCAD's entries of them
 
     @property
     def result(self):
@@ -72,6 +75,11 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     if solution.recover:
         solution.recovered = solution.recover()
         _tell(analysis, solution.recovered.line() if solution.recovered else "", log)
+    for line in ties.not_tied(solution.path, solution.ties, solution.mesh):
+        FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
+        solution.notes.append(line)
+        if log:
+            log(line)
     if solution.weigh:
         solution.balance = solution.weigh()
     if solution.balance:
@@ -126,6 +134,9 @@ def prepared(analysis, solver, folder):
         (solver,) = ours
     elif solver not in ours:
         raise InvalidInput(tr("{} is no solver of the kind CalculiX Standard in {}").format(getattr(solver, "Label", solver), analysis.Label))
+    meshes = analyses.other_meshes(analysis)
+    if len(meshes) > 1:
+        raise InvalidInput(tr("{} has several meshes, one is needed: {}").format(analysis.Label, ", ".join(mesh.Label for mesh in meshes)))
     _check_references(analysis)
     from femtools import ccxtools
 
@@ -134,7 +145,10 @@ def prepared(analysis, solver, folder):
     if folder is None:
         tools.setup_working_dir()
     else:
-        os.makedirs(folder, exist_ok=True)
+        try:
+            os.makedirs(folder, exist_ok=True)
+        except (OSError, TypeError) as error:
+            raise InvalidInput(tr("no folder for CalculiX' files: {}").format(error)) from None
         tools.setup_working_dir(folder)
     trouble = [line for line in tools.check_prerequisites().splitlines() if line.strip()]
     if any(kind in ("bearing", "spring") for kind, _ in _special(analysis)):
@@ -169,6 +183,8 @@ def write(tools, element=None, stresses=None):
     entries = {name[5:]: getattr(getter.member, name) for name in vars(getter.member) if name.startswith("cons_")}
     _check_found(entries)
     cards = _cards(tools, mesh, getter.member, entries, special)
+    if mesh and tools.solver.AnalysisType in _WITH_REACTIONS:
+        notes += _free(mesh, entries, special, cards.held)
     files = writer.FemInputWriterCcx(tools.analysis, tools.solver, tools.mesh, getter.member, tools.working_dir, getter.mat_geo_sets)
     tools.inp_file_name = path = files.write_solver_input()
     if not path:
@@ -191,6 +207,9 @@ def write(tools, element=None, stresses=None):
     solution.mesh, solution.springs = mesh, any(kind == "spring" for kind, _ in special)
     if solution.springs:
         _change(path, lambda text: deck.outputs_of(text, files.ccx_nall))
+    if mesh and getter.member.cons_tie:
+        solution.ties = getter.member.cons_tie
+        _change(path, lambda text: _noted(ties.with_reaches(text, solution.ties, mesh), notes))
     if mesh and tools.solver.AnalysisType in _WITH_REACTIONS and tools.solver.GeometricalNonlinearity != "nonlinear":
         solution.weigh = lambda: balance.check(mesh, getter.member, cards.loads, cards.supports, path, SUPPORTS)
     if recovers:
@@ -220,6 +239,13 @@ def _without_springs(path, mesh):
     with open(path, encoding="utf-8") as file:
         text = file.read()
     _change(os.path.splitext(path)[0] + ".frd", lambda frd: deck.undiluted(deck.without_others(frd, max(mesh.Nodes), max(mesh.Volumes)), text, cells))
+
+
+def _noted(changed, notes):
+    """Of (text, lines) the text; the lines are added to notes."""
+    text, lines = changed
+    notes += lines
+    return text
 
 
 def _change(path, change):
@@ -295,6 +321,27 @@ def _check_found(entries):
             raise InvalidInput("{}: {}".format(entry["Object"].Label, lost))
 
 
+def _free(mesh, entries, special, held):
+    """A line where supports leave one solid free to move as a whole: CalculiX often ends without an error there, and moves it by some amount."""
+    import numpy
+
+    others = any(entries.get(kind) for kind in ("contact", "tie", "transform")) or any(kind in ("bearing", "spring") for kind, _ in special)
+    rows = [(node, axis - 1) for node, axes in held.items() for axis in sorted(axes)]
+    if others or not rows or len(mesh.solids()) != 1:
+        return []
+    places = mesh.Nodes
+    everywhere = numpy.array([place[:] for place in places.values()])
+    centre, size = everywhere.mean(axis=0), numpy.ptp(everywhere, axis=0).max()
+    at = (numpy.array([places[node][:] for node, _ in rows]) - centre) / size
+    along = numpy.eye(3)[[axis for _, axis in rows]]
+    # the motion of a point at r is t + w x r; along an axis e that is e t + (r x e) w
+    motions = numpy.hstack([along, numpy.cross(at, along)])
+    free = 6 - numpy.linalg.matrix_rank(motions.T @ motions / len(rows), tol=_HELD)
+    if not free:
+        return []
+    return [tr("the supports leave the part free to move as a whole in {} of 6 ways: displacements mean nothing").format(free)]
+
+
 def _cards(tools, mesh, member, entries, special):
     """The cards of what FreeCAD does not write, and the print of the reactions."""
     held, all_directions = {}, {1, 2, 3}
@@ -353,7 +400,7 @@ def run(solution, log=None, cancel=None):
     threads = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx").GetInt("AnalysisNumCPUs", 1)
     environment = dict(os.environ, OMP_NUM_THREADS=str(threads if threads > 1 else os.cpu_count() or 1))
     folder, name = os.path.split(os.path.splitext(solution.path)[0])
-    for ending in (".frd", ".dat"):  # those of an earlier run are no results of this one
+    for ending in (".frd", ".dat", ties.MISSED):  # those of an earlier run are no results of this one
         if os.path.exists(os.path.join(folder, name + ending)):
             os.remove(os.path.join(folder, name + ending))
     child = subprocess.Popen(

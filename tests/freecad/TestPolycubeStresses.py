@@ -89,6 +89,8 @@ class Recovery(unittest.TestCase):
         samples = lame(recovery.sample_places(points, cells))
         found = stresses.Recovered(np.arange(len(points)), points, cells, samples, *recovery.recovered(points, cells, samples))
         estimated = estimate.energy_error(found, [(210000.0, 0.3)] * len(cells))
+        rounding = stresses.Recovered(np.arange(len(points)), points, cells, 1e-12 * samples, found.values, found.trust, 0 * found.of_cells)
+        self.assertEqual(estimate.energy_error(rounding, [(210000.0, 0.3)] * len(cells)).share, 0)
         found.of_cells = lame(points[cells])  # but for what 20 nodes miss of it
         exact = estimate.energy_error(found, [(210000.0, 0.3)] * len(cells))
         self.assertGreater(exact.share, 0.005)

@@ -29,10 +29,11 @@ class First(GuiTest):
     def test_an_analysis_is_made_with_our_toolbar_alone(self):
         toolbar, menu = self.actions()
         self.assertEqual([action.text() for action in toolbar], [action.text() for action in menu])
-        self.assertEqual(len(toolbar), 9, [action.text() for action in toolbar])
-        _, analysis, *others, solve, guide = toolbar
+        self.assertEqual(len(toolbar), 10, [action.text() for action in toolbar])
+        _, analysis, *others, solve, errors, guide = toolbar
         process_events()
         self.assertFalse(solve.isEnabled())
+        self.assertFalse(errors.isEnabled(), "it needs results")
         self.assertFalse(any(action.isEnabled() for action in others), "they need an analysis")
         self.assertTrue(analysis.isEnabled())
         self.assertTrue(guide.isEnabled())

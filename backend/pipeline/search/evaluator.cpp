@@ -46,10 +46,9 @@ double typical_edge(const HexMesh& mesh) {
   return sum / (3.0 * static_cast<double>(mesh.hexes.size()));
 }
 
-template <class Mesh>
-Score score_of(double least, const Mesh& m) {
+Score score_of(const CadModel& model, double least, const PaddedMesh& m) {
   return {static_cast<int>(m.association.lost_edges.size()), static_cast<int>(m.association.lost_vertices.size()), least,
-          free_scaled_jacobian(m.mesh, m.association)};
+          free_scaled_jacobian(m.mesh, m.association), at_cad_bound(model, m.mesh, m.association)};
 }
 
 StageFailed inverted(const FitReport& fitted) {
@@ -165,9 +164,7 @@ class Evaluator::Work {
         gate(model_, draft.padded, options_.threads, monitor_);
         own_.gate_seconds_ = std::chrono::duration<double>(Monitor::Clock::now() - start).count();
         outcome.kind = Outcome::Kind::kMesh;
-        outcome.score = score_of(draft.fitted.min_scaled_jacobian, draft.padded);
-        outcome.score->least = summarise(draft.padded.mesh).min_scaled_jacobian;
-        outcome.score->at_bound = at_cad_bound(model_, draft.padded.mesh, draft.padded.association);
+        outcome.score = score_of(model_, summarise(draft.padded.mesh).min_scaled_jacobian, draft.padded);
       } catch (const StageFailed& e) {
         outcome.failure = Failure{e, {}};
       }
@@ -446,8 +443,7 @@ class Evaluator::Work {
     if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
     const std::vector<FitCandidate> candidates = candidates_of(choices);
     const auto good = [&](std::size_t i, const FitReport& r) {
-      return r.inverted == 0 &&
-             (good_cells(score_of(r.min_scaled_jacobian, choices[i])) || own_.hurry_() || at_cad_bound(model_, choices[i].mesh, choices[i].association));
+      return r.inverted == 0 && (good_cells(score_of(model_, r.min_scaled_jacobian, choices[i])) || own_.hurry_());
     };
     const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options(), fits_left_, good, monitor_); });
     const std::size_t chosen = best.index;

@@ -103,11 +103,13 @@ bool better(const Score& a, const Score& b) {
   return worth(a) > worth(b);
 }
 
-bool good_cells(const Score& score) { return score.least >= kSearchTuning.good_scaled_jacobian || score.free_least >= kSearchTuning.good_scaled_jacobian; }
+bool good_cells(const Score& score) {
+  return score.least >= kSearchTuning.good_scaled_jacobian || score.free_least >= kSearchTuning.good_scaled_jacobian || score.at_bound;
+}
 
 bool good_enough(const Score& score, int fits_done, const Budget& budget) {
   const bool patient = fits_done >= budget.patience && score.least >= kSearchTuning.good_scaled_jacobian / 2;
-  return score.complete() && (patient || score.at_bound || good_cells(score));
+  return score.complete() && (patient || good_cells(score));
 }
 
 Budget budget_of(const std::string& effort) {

@@ -20,7 +20,7 @@ struct Score {
   bool complete() const { return lost_edges == 0 && lost_vertices == 0; }
 };
 
-/// Whether the cells are good, but for those that the CAD holds where they are.
+/// Whether the cells are good, but for those that the CAD holds where they are, or as good as the CAD lets them be.
 bool good_cells(const Score& score);
 
 /// More captured edges first (a worst cell below .05 counts as half an edge), then the better worst cell.

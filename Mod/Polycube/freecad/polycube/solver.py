@@ -66,9 +66,7 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     tools = prepared(analysis, solver, folder)
     solution = write(tools, element, stresses)
     for line in solution.notes:
-        FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
-        if log:
-            log(line)
+        _tell(analysis, line, log, is_warning=True)
     run(solution, log, cancel)
     if solution.springs:
         _without_springs(solution.path, tools.mesh.FemMesh)
@@ -76,18 +74,14 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
         solution.recovered = solution.recover()
         _tell(analysis, solution.recovered.line() if solution.recovered else "", log)
     for line in ties.not_tied(solution.path, solution.ties, solution.mesh):
-        FreeCAD.Console.PrintWarning("{}: {}\n".format(analysis.Label, line))
         solution.notes.append(line)
-        if log:
-            log(line)
+        _tell(analysis, line, log, is_warning=True)
     if solution.weigh:
         solution.balance = solution.weigh()
     if solution.balance:
         line = solution.balance.line()
-        (FreeCAD.Console.PrintMessage if solution.balance.holds else FreeCAD.Console.PrintWarning)("{}: {}\n".format(analysis.Label, line))
         solution.notes += [] if solution.balance.holds else [line]
-        if log:
-            log(line)
+        _tell(analysis, line, log, is_warning=not solution.balance.holds)
     before = set(analysis.Group)
     with api.transaction(analysis.Document, tr("Solve with CalculiX")):
         if not FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/General").GetBool("KeepResultsOnReRun", False):
@@ -109,11 +103,13 @@ def solve(analysis, element=None, solver=None, folder=None, log=None, cancel=Non
     return solution
 
 
-def _tell(analysis, line, log):
-    if line:
-        FreeCAD.Console.PrintMessage("{}: {}\n".format(analysis.Label, line))
-        if log:
-            log(line)
+def _tell(analysis, line, log, is_warning=False):
+    """To FreeCAD's report and the log of the caller; nothing where the line is empty."""
+    if not line:
+        return
+    (FreeCAD.Console.PrintWarning if is_warning else FreeCAD.Console.PrintMessage)("{}: {}\n".format(analysis.Label, line))
+    if log:
+        log(line)
 
 
 def prepared(analysis, solver, folder):

@@ -8,7 +8,9 @@
 #include <string>
 #include <tuple>
 
+#include "label/frame.h"
 #include "label/tuning.h"
+#include "label/validity.h"
 
 namespace polycube {
 namespace {
@@ -107,14 +109,14 @@ LabelVariant plain(LabelVariant v) {
   return v;
 }
 
-LabelChoice::LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, std::vector<char> left_out,
-                         const Monitor& monitor)
-    : model_(model), mesh_(mesh), options_(options), frames_(std::move(frames)), left_out_(std::move(left_out)), monitor_(monitor) {}
+LabelChoice::LabelChoice(const CadModel& model, const TetMesh& mesh, const LabelOptions& options, std::vector<Mat3> frames, bool more_frames,
+                         std::vector<char> left_out, const Monitor& monitor)
+    : model_(model), mesh_(mesh), options_(options), frames_(std::move(frames)), more_frames_(more_frames), left_out_(std::move(left_out)), monitor_(monitor) {}
 
 const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   const auto found = std::find_if(made_.begin(), made_.end(), [&](const Labelled& l) { return l.variant == variant; });
   if (found != made_.end()) return *found;
-  Labelled result{variant, mesh_, {}, {}, 0, 0};
+  Labelled result{variant, mesh_, {}, {}, 0, 0, {}};
   LabelOptions options = options_;
   options.frame_given = true;
   options.frame = frames_[variant.frame];
@@ -130,8 +132,9 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   result.faults = result.report.score;
   for (const FeatureEdge& e : find_features(model_, result.mesh, result.labelling, left_out_, monitor_).edges)
     result.lost_features += e.capture == EdgeCapture::kLost;
+  result.smooth_corners = smooth_corners(result.mesh, result.labelling.frame, result.labelling.label);
   monitor_.log("label: " + describe(variant) + ": score " + std::to_string(result.faults) + ", " + std::to_string(result.lost_features) +
-               " edges without feature charts");
+               " edges without feature charts, " + std::to_string(result.smooth_corners.size()) + " corners where the part is smooth");
   made_.push_back(std::move(result));
   return made_.back();
 }
@@ -173,6 +176,28 @@ const std::vector<LabelVariant>& LabelChoice::order() {
   }
   order_.insert(order_.end(), again.begin(), again.end());
   return order_;
+}
+
+void LabelChoice::look_along_bend() {
+  const Labelled& first = labelled(order().front());
+  if (first.faults > 0) return;
+  const BisectingFrame bisecting = bisecting_frame(first.mesh, first.labelling, first.smooth_corners);
+  if (!bisecting.frame || kLabelTuning.bent_corners * static_cast<double>(first.smooth_corners.size()) > bisecting.of) return;
+  frames_.push_back(*bisecting.frame);
+  for (const double widest_bend : {LabelVariant{}.widest_bend, kLabelTuning.fillets_whole}) {
+    const LabelVariant variant{.frame = static_cast<int>(std::ssize(frames_)) - 1, .widest_bend = widest_bend};
+    const Labelled& l = labelled(variant);
+    const auto gone = std::ssize(first.smooth_corners) - std::ssize(l.smooth_corners);
+    if (l.faults > 0 || l.lost_features > first.lost_features || 2 * gone < bisecting.of) continue;
+    along_bend_ = variant;
+    return;
+  }
+}
+
+const std::optional<LabelVariant>& LabelChoice::along_bend() {
+  if (more_frames_) look_along_bend();
+  more_frames_ = false;
+  return along_bend_;
 }
 
 }  // namespace polycube

@@ -1,8 +1,11 @@
 #include "label/frame.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "core/charts.h"
 #include "core/error.h"
@@ -188,6 +191,53 @@ std::vector<Mat3> find_frames(const CadModel& model, std::size_t most) {
     frames.push_back(nearest_to_world(best->second));
   }
   return frames;
+}
+
+BisectingFrame bisecting_frame(const TetMesh& mesh, const Labelling& labelling, const std::vector<int>& corners) {
+  struct Bend {
+    std::set<int> labels;
+    Vec3 sum = Vec3::Zero();     // of the normals, by area
+    Mat3 spread = Mat3::Zero();  // of their products
+    double area = 0;
+    std::set<int> corners;
+  };
+  const std::set<int> is_corner(corners.begin(), corners.end());
+  std::map<int, Bend> bends;  // by CAD face
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 w = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+    const double area = w.norm();
+    if (!(area > 0)) continue;
+    Bend& bend = bends[mesh.triangle_face[t]];
+    bend.labels.insert(labelling.label[t]);
+    bend.sum += w;
+    bend.spread += w * w.transpose() / area;
+    bend.area += area;
+    for (const int n : mesh.triangles[t]) {
+      if (is_corner.contains(n)) bend.corners.insert(n);
+    }
+  }
+  std::vector<std::pair<Mat3, std::set<int>>> votes;
+  std::set<int> all;
+  for (const auto& [face, bend] : bends) {
+    if (bend.labels.size() < 2 || bend.sum.norm() < kLabelTuning.bisected * bend.area) continue;
+    const Eigen::SelfAdjointEigenSolver<Mat3> normals(bend.spread / bend.area);
+    // Where normals turn about more than one axis none is that of the bend, and those of a plane turn about none.
+    if (normals.eigenvalues()[0] > kLabelTuning.off_plane || normals.eigenvalues()[1] < kLabelTuning.off_plane) continue;
+    all.insert(bend.corners.begin(), bend.corners.end());
+    Mat3 frame;
+    frame.row(0) = normals.eigenvectors().col(0);
+    frame.row(1) = (bend.sum - bend.sum.dot(frame.row(0)) * frame.row(0).transpose()).normalized();
+    frame.row(2) = frame.row(0).cross(frame.row(1));
+    if (frame_turn(frame, labelling.frame) < kLabelTuning.same_frame) continue;
+    auto same = std::find_if(votes.begin(), votes.end(), [&](const auto& v) { return frame_turn(frame, v.first) < kLabelTuning.same_frame; });
+    if (same == votes.end()) same = votes.insert(votes.end(), {nearest_to_world(frame), {}});
+    same->second.insert(bend.corners.begin(), bend.corners.end());
+  }
+  BisectingFrame result{std::nullopt, static_cast<int>(all.size())};
+  const auto most = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  if (most != votes.end() && !most->second.empty() && 2 * most->second.size() >= all.size()) result.frame = most->first;
+  return result;
 }
 
 Mat3 find_frame(const CadModel& model) { return find_frames(model, 1).front(); }

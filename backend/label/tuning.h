@@ -69,6 +69,12 @@ struct LabelTuning {
   double level = 1e-3;
   /// Radians: frames nearer to each other are one. Guess.
   double same_frame = 0.1;
+  /// Mean of a bent face's normals, of one: below, it bends too far to have one label in any frame. Theory: an arc of 160 degrees.
+  double bisected = 0.7;
+  /// Mean square of the normals of a face that bends round one axis along that axis, and below which it does not bend. Guess.
+  double off_plane = 0.01;
+  /// Of the corners of charts where a part is smooth, those on bent faces that one label could have: with fewer another frame is not tried. Guess.
+  double bent_corners = 0.25;
   /// Cosine of 85 degrees: a face with a normal nearer to an axis shows towards it. Guess.
   double towards = 0.087;
   /// Cosine of 100 degrees: one with a normal beyond shows against it. Guess.
@@ -122,9 +128,9 @@ struct LabelTuning {
 
   POLYCUBE_ENTRIES(aligned_cosine, flat_cosine, blunt_cosine, chamfer_turn, chamfer_from, chamfer_to, sharp_bend, small_share, narrow, most_divisions,
                    first_strictness, least_share, least_turn, bent_shares, steep, real_share, least_facing, fold_score, sliver, least_gap, near_generators,
-                   across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, towards, against, level_cosine, off_vertex, aside,
-                   max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share, stray_area, room_triangles, least_room, most_room,
-                   close, beyond, straight, line_step, bisections, samples, widest_bend, strictness)
+                   across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, bisected, off_plane, bent_corners, towards, against,
+                   level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share, stray_area,
+                   room_triangles, least_room, most_room, close, beyond, straight, line_step, bisections, samples, widest_bend, strictness)
 };
 
 inline constexpr const LabelTuning& kLabelTuning = tuning_in_force<LabelTuning>;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "core/charts.h"
@@ -399,6 +400,17 @@ ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
   const ChartGraph c = chart_graph(mesh, frame, labels);
   return find_violations(c.graph, c.points, c.label, c.noise);
+}
+
+std::vector<int> smooth_corners(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {
+  const ChartGraph charts = chart_graph(mesh, frame, labels);
+  const RegionGraph& g = charts.graph;
+  const auto smooth = [&](int dart) { return std::abs(g.arcs[dart / 2].angle - std::numbers::pi) < kLabelTuning.sharp_bend; };
+  std::vector<int> nodes;
+  for (const Junction& j : g.junctions) {
+    if (std::any_of(j.darts.begin(), j.darts.end(), smooth)) nodes.push_back(j.node);
+  }
+  return nodes;
 }
 
 int count_folded_parts(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels) {

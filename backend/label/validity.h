@@ -67,6 +67,10 @@ ChartGraph chart_graph(const TetMesh& mesh, const Mat3& frame, const std::vector
 /// Of the charts of labels per triangle, of which no normal is known.
 Violations find_violations(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
 
+/// Corners of charts, as points of the mesh, from which a border runs where the surface is smooth: a block has an edge there, and a part none, so that its
+/// cells are 180 degrees wide.
+std::vector<int> smooth_corners(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);
+
 /// What labels per triangle have of single CAD faces, slivers aside, and fold as regions do. No fault by itself: a small face may well be bent round to where
 /// its neighbours want it.
 int count_folded_parts(const TetMesh& mesh, const Mat3& frame, const std::vector<int>& labels);

@@ -208,7 +208,7 @@ class Labeller {
       std::sort(own.face_labels.begin(), own.face_labels.end());
       for (const auto& label : barred)
         if (has(solid.faces(), label.first)) own.barred.push_back(label);
-      LabelChoice choice(solid, view, own, {options_.frame}, given_.left_out, monitor_);
+      LabelChoice choice(solid, view, own, {options_.frame}, false, given_.left_out, monitor_);
       const std::vector<LabelVariant>& variants = choice.order();
       const Labelled& chosen = choice.labelled(variants[static_cast<std::size_t>(attempt_) % variants.size()]);
       const double score = find_violations(chosen.mesh, options_.frame, skin.agreed(s, chosen.mesh, chosen.labelling.label)).score;

@@ -44,7 +44,7 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   pose.check_labels(part.tets, options.labels);
   const std::vector<char> left_out = smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
   clock.stage("label", [&] {
-    LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), left_out, monitor);
+    LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), pose.may_turn(options), left_out, monitor);
     Labelled best = choice.labelled(choice.order().front());
     part.tets = std::move(best.mesh);
     part.labelling = std::move(best.labelling);

@@ -86,10 +86,14 @@ void Pose::check_labels(const TetMesh& mesh, const FaceLabels& labels) const {
   polycube::check_labels(mesh, user_frame * rotation.transpose(), user);
 }
 
+bool Pose::may_turn(const MeshOptions& options) const {
+  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
+  return !frame_given && !by_axis && options.labels.empty();
+}
+
 std::vector<Mat3> Pose::frames(const MeshOptions& options) const {
   std::vector<Mat3> result{frame};
-  const bool by_axis = std::any_of(options.sizes.begin(), options.sizes.end(), [](const LocalSize& s) { return s.face == 0; });
-  if (frame_given || by_axis || !options.labels.empty()) return result;
+  if (!may_turn(options)) return result;
   for (const Mat3& f : find_frames(model, kPipelineTuning.frames)) {
     if (frame_turn(f, frame) > kLabelTuning.same_frame) result.push_back(f);
   }

@@ -33,6 +33,8 @@ struct Pose {
   void map_back(Chart& chart) const;
   /// Of the labels, in the pose, best first: `frame`, and others of the part where the user does not speak of axes.
   std::vector<Mat3> frames(const MeshOptions& options) const;
+  /// Whether the part may be labelled in other frames: where the user speaks of no axis.
+  bool may_turn(const MeshOptions& options) const;
   /// A frame of the pose, as the user sees it.
   Mat3 user_axes(const Mat3& posed_frame) const;
   /// Lengths and labels in the pose, whose own frame is the one.

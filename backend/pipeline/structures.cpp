@@ -93,7 +93,12 @@ LabelChoice& Structures::labellings(double tet_size) {
   if (found != labellings_.end()) return found->second;
   const TetMesh& mesh = tets_.mesh(tet_size);
   pose_.check_labels(mesh, options_.labels);
-  return labellings_.try_emplace(tet_size, model_, mesh, label_options(options_), pose_.frames(options_), ignored_, monitor_).first->second;
+  const auto usual = labellings_.find(1);
+  const bool first = usual == labellings_.end();
+  return labellings_
+      .try_emplace(tet_size, model_, mesh, label_options(options_), first ? pose_.frames(options_) : usual->second.frames(), first && pose_.may_turn(options_),
+                   ignored_, monitor_)
+      .first->second;
 }
 
 std::vector<LabelVariant> Structures::label_order() {
@@ -107,7 +112,16 @@ std::vector<LabelVariant> Structures::label_order() {
   if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
   const Structure& best = built({.labels = order.front()});
   if (best.failure || best.flipped > 0) prefer_facing(order);
+  if (const std::optional<LabelVariant> along = clock_.stage("label", [&] { return labellings(1).along_bend(); }); along) {
+    const bool better = by_map(*along) < by_map(order.front());
+    order.insert(order.begin() + (better ? 0 : 1), *along);
+  }
   return order;
+}
+
+std::tuple<bool, int, double> Structures::by_map(const LabelVariant& variant) {
+  const Structure& s = built({.labels = variant});
+  return {s.failure.has_value(), magnitude(s.flipped), s.distortion};
 }
 
 // Where the map of the first turns tets over, and regions of it stand square to their label's axis: those with fewer such regions and other frames, if nothing
@@ -153,11 +167,7 @@ void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   };
   const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kPipelineTuning.mapped));
   const auto end = std::find_if(order.begin(), last, [&, first = without_map(order.front())](const LabelVariant& v) { return without_map(v) > first; });
-  const auto key = [&](const LabelVariant& v) {
-    const Structure& s = built({.labels = v});
-    return std::tuple(s.failure.has_value(), magnitude(s.flipped), s.distortion);
-  };
-  std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return key(a) < key(b); });
+  std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return by_map(a) < by_map(b); });
 }
 
 bool Structures::doubtful(const StructurePlan& plan) {
@@ -222,7 +232,7 @@ void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std:
   s.flipped = realised.report.flipped;
   s.distortion = realised.report.distortion;
   monitor_.log("deform: " + std::to_string(s.map.charts.size()) + " charts, " + std::to_string(s.flipped) + " flipped of " +
-               std::to_string(s.tets.tets.size()) + " tets");
+               std::to_string(s.tets.tets.size()) + " tets, distortion " + std::to_string(s.distortion));
   s.blocks = clock_.stage("blocks", [&] { return extract_blocks(s.tets, s.map, monitor_); });
 }
 

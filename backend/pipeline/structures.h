@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "blocks/blocks.h"
 #include "core/error.h"
@@ -82,8 +83,8 @@ class Structures {
   /// Throws StageFailed, the same whenever asked; also where one made before has the same labels and features.
   const Structure& structure(const StructurePlan& plan);
   /// Ways to label the part, best first: by LabelChoice, then, where the first map fails or turns over more than a few tets, those as good by their maps; where
-  /// it turns over any, and a face stands square to its label's axis, those with fewer such faces too. As they come where there is no tet mesh to judge them
-  /// on.
+  /// it turns over any, and a face stands square to its label's axis, those with fewer such faces too; and one along a bend (LabelChoice) first or second, by
+  /// its map. As they come where there is no tet mesh to judge them on.
   std::vector<LabelVariant> label_order();
   /// The first of LabelChoice's order, whatever its map. Throws StageFailed where there is no tet mesh.
   const Labelled& labelled();
@@ -98,6 +99,8 @@ class Structures {
   LabelChoice& labellings(double tet_size);
   const Labelled& labelled(const LabelVariant& variant, double tet_size = 1);
   void prefer_facing(std::vector<LabelVariant>& order);
+  /// What is wrong with a labelling's map, lower is better.
+  std::tuple<bool, int, double> by_map(const LabelVariant& variant);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
   const Structure& built(const StructurePlan& plan);

@@ -126,6 +126,15 @@ std::string tube(double radius, double bore, double height) {
   return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), BRepPrimAPI_MakeCylinder(bore, height).Shape()).Shape()));
 }
 
+std::string tube_sector(double radius, double bore, double height, double degrees) {
+  const double angle = degrees * M_PI / 180;
+  return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height, angle).Shape(), BRepPrimAPI_MakeCylinder(bore, height).Shape()).Shape()));
+}
+
+std::string arched_block(double size, double radius) {
+  return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {size, size, size}), BRepPrimAPI_MakeCylinder(radius, size).Shape()).Shape()));
+}
+
 std::string plate_with_hole(double x, double y, double z, double radius) {
   const gp_Ax2 axis({x / 2, y / 2, -z}, {0, 0, 1});
   return text(solid(BRepAlgoAPI_Cut(block({0, 0, 0}, {x, y, z}), BRepPrimAPI_MakeCylinder(axis, radius, 3 * z).Shape()).Shape()));

@@ -8,23 +8,25 @@
 
 namespace polycube::shapes {
 
-std::string box(double x, double y, double z);                             ///< a corner at the origin
-std::string cylinder(double radius, double height);                        ///< about +Z from the origin
-std::string cone(double radius, double top_radius, double height);         ///< top_radius 0: with its tip
-std::string sphere(double radius);                                         ///< centre at the origin
-std::string torus(double major, double minor);                             ///< about +Z, centre at the origin
-std::string tube(double radius, double bore, double height);               ///< about +Z from the origin
-std::string plate_with_hole(double x, double y, double z, double radius);  ///< box with a through bore along Z in its middle
-std::string l_bracket(double leg, double thickness, double width);         ///< L in the XZ plane, extruded along Y; one concave edge
-std::string notched_box(double size);                                      ///< cube minus a corner cube of half its size
-std::string filleted_box(double size, double radius);                      ///< cube with all twelve edges rounded
-std::string chamfered_box(double size, double leg);                        ///< cube with one edge along Z cut at 45 degrees
-std::string pyramid(double side, double height);                           ///< square base in z = 0 about the origin
-std::string pointed(int sides, double radius, double height);              ///< pyramid over a regular polygon about the origin, a corner on +X
-std::string tetrahedron(double edge);                                      ///< regular
-std::string bevelled_box(double size, double leg);                         ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
-std::string hollow_box(double size);                                       ///< cube with a cubic void: two shells
-std::string loft(double size, double height);                              ///< square to circle: ruled B-spline sides
+std::string box(double x, double y, double z);                                       ///< a corner at the origin
+std::string cylinder(double radius, double height);                                  ///< about +Z from the origin
+std::string cone(double radius, double top_radius, double height);                   ///< top_radius 0: with its tip
+std::string sphere(double radius);                                                   ///< centre at the origin
+std::string torus(double major, double minor);                                       ///< about +Z, centre at the origin
+std::string tube(double radius, double bore, double height);                         ///< about +Z from the origin
+std::string tube_sector(double radius, double bore, double height, double degrees);  ///< from +X about +Z from the origin
+std::string arched_block(double size, double radius);                                ///< cube less a quarter of a cylinder about its edge on the Z axis
+std::string plate_with_hole(double x, double y, double z, double radius);            ///< box with a through bore along Z in its middle
+std::string l_bracket(double leg, double thickness, double width);                   ///< L in the XZ plane, extruded along Y; one concave edge
+std::string notched_box(double size);                                                ///< cube minus a corner cube of half its size
+std::string filleted_box(double size, double radius);                                ///< cube with all twelve edges rounded
+std::string chamfered_box(double size, double leg);                                  ///< cube with one edge along Z cut at 45 degrees
+std::string pyramid(double side, double height);                                     ///< square base in z = 0 about the origin
+std::string pointed(int sides, double radius, double height);                        ///< pyramid over a regular polygon about the origin, a corner on +X
+std::string tetrahedron(double edge);                                                ///< regular
+std::string bevelled_box(double size, double leg);  ///< cube with all twelve edges cut at 45 degrees: a triangle at every corner
+std::string hollow_box(double size);                ///< cube with a cubic void: two shells
+std::string loft(double size, double height);       ///< square to circle: ruled B-spline sides
 std::string turned(double radius, double height,
                    double groove);  ///< shaft turned from a profile, all faces surfaces of revolution, a half-round groove about it
 std::string weld(double radius, double width,

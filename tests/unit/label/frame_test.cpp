@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "label/label.h"
+#include "label/validity.h"
 #include "support/shapes.h"
 #include "tet/tet.h"
 
@@ -42,6 +43,24 @@ TEST(Frame, ABevelOffersAnother) {
     EXPECT_GT(f.determinant(), 0);
   }
   EXPECT_EQ(find_frames(model, 1).size(), 1u);
+}
+
+// The labels of a quarter of a tube change half way along its bore and outside; in a frame along the bend they need not.
+TEST(Frame, OneAlongABendThatLabelsDivide) {
+  const auto bisecting = [](const std::string& brep) {
+    const CadModel model = CadModel::from_brep(brep);
+    TetOptions size;
+    size.size = model.diagonal() / 15;
+    TetMesh mesh = tetrahedralise(model, size, Monitor());
+    const Labelling labelling = label(model, mesh, LabelOptions(), Monitor());
+    return bisecting_frame(mesh, labelling, smooth_corners(mesh, labelling.frame, labelling.label));
+  };
+  const BisectingFrame quarter = bisecting(shapes::tube_sector(20, 10, 10, 90));
+  EXPECT_EQ(quarter.of, 4);
+  ASSERT_TRUE(quarter.frame);
+  EXPECT_NEAR(frame_turn(*quarter.frame, Mat3::Identity()), std::numbers::pi / 4, 1e-3);  // the normals of triangles
+  EXPECT_NEAR(std::abs((*quarter.frame * Vec3::UnitZ()).cwiseAbs().maxCoeff()), 1, 1e-9);
+  for (const std::string& whole : {shapes::box(1, 2, 3), shapes::tube(20, 10, 10)}) EXPECT_FALSE(bisecting(whole).frame);
 }
 
 TEST(Label, AChamferTakesTheAxisItIsAskedTo) {

@@ -189,6 +189,25 @@ TEST(Validity, AllAlongTheWayBackIsToBlameForATurningPoint) {
   for (int r : inner) EXPECT_TRUE(std::binary_search(found.regions.begin(), found.regions.end(), r)) << r;
 }
 
+// A border of charts on a flat side of the part: two corners at its ends.
+TEST(Validity, CornersWhereAPartIsSmooth) {
+  const Voxels v = voxels({{0, 0, 0}, {1, 0, 0}}, 3);
+  std::vector<int> label(v.mesh.triangles.size());
+  for (std::size_t t = 0; t < label.size(); ++t) label[t] = v.label[v.region[t]];
+  EXPECT_TRUE(smooth_corners(v.mesh, Mat3::Identity(), label).empty());
+  // The upper side's right half faces to the right, as a bent face's would.
+  for (std::size_t t = 0; t < label.size(); ++t) {
+    const auto& [a, b, c] = v.mesh.triangles[t];
+    if (label[t] == 4 && (v.mesh.points[a] + v.mesh.points[b] + v.mesh.points[c]).x() > 3) label[t] = 0;
+  }
+  const std::vector<int> corners = smooth_corners(v.mesh, Mat3::Identity(), label);
+  ASSERT_EQ(corners.size(), 2u);
+  for (const int n : corners) {
+    EXPECT_NEAR(v.mesh.points[n].x(), 1, 1e-12);
+    EXPECT_NEAR(v.mesh.points[n].z(), 1, 1e-12);
+  }
+}
+
 TEST(RegionGraph, ArcsAndJunctionsOfACube) {
   const Voxels v = voxels({{0, 0, 0}}, 3);
   const RegionGraph g = build_region_graph(v.mesh, v.region);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "label/frame.h"
 #include "pipeline/pose.h"
 #include "support/shapes.h"
@@ -56,6 +58,24 @@ TEST(Structures, OtherFramesAreTriedOnlyWhereTheUserDoesNotSpeakOfAxes) {
   sized.sizes.push_back({});
   sized.sizes.back().axis = 1;
   EXPECT_EQ(Part(bevelled).pose.frames(sized).size(), 1u);
+}
+
+// A quarter of a tube is one block along its bend; the arch of a block is no reason to turn all of it.
+TEST(Structures, AFrameAlongABendIsTakenWhereItsMapBendsLess) {
+  Part quarter(shapes::tube_sector(20, 10, 10, 90)), arch(shapes::arched_block(40, 25));
+  for (Part* part : {&quarter, &arch}) {
+    const std::vector<LabelVariant> order = part->structures.label_order();
+    const auto turned = std::find_if(order.begin(), order.end(), [](const LabelVariant& v) { return v.frame > 0; });
+    ASSERT_NE(turned, order.end());
+    EXPECT_EQ(turned - order.begin(), part == &quarter ? 0 : 1);
+    EXPECT_EQ(part->structures.label_order(), order);
+    // Another tet mesh knows the frame too.
+    EXPECT_EQ(part->structures.structure({.labels = *turned, .tet_size = 0.8}).flipped, 0);
+  }
+  EXPECT_EQ(quarter.structures.structure({.labels = quarter.structures.label_order().front()}).map.charts.size(), 6u);
+  MeshOptions framed;
+  framed.frame = {{1, 0, 0}, {0, 1, 0}};
+  for (const LabelVariant& v : Part(shapes::tube_sector(20, 10, 10, 90), framed).structures.label_order()) EXPECT_EQ(v.frame, 0);
 }
 
 // In any frame the map of a part has its charts on planes of the axes.

@@ -12,10 +12,10 @@ import TestPolycubeSolver as solver_tests
 from FreeCAD import Vector
 
 from freecad import polycube
-from freecad.polycube import balance, estimate, recovery, stresses, symmetry
+from freecad.polycube import estimate, recovery, serendipity, stresses, symmetry
 
 #: places of the 20 nodes of a cell from 0 to 2
-_NODES = np.concatenate([balance.CORNERS, balance.MIDDLES]) + 1
+_NODES = np.concatenate([serendipity.CORNERS, serendipity.MIDDLES]) + 1
 
 
 def block(counts, place):
@@ -71,7 +71,7 @@ class Recovery(unittest.TestCase):
 
     def test_samples_of_27_points_are_as_good(self):
         points, cells = block((3, 3, 3), bent)
-        shapes = np.array([balance.shape_functions(20, place)[0] for place in recovery.gauss(3)[0]])
+        shapes = np.array([serendipity.shape_functions(20, place)[0] for place in recovery.gauss(3)[0]])
         field = of_degree(1)
         samples = recovery.at_superconvergent(field(np.einsum("pn,mnd->mpd", shapes, block((3, 3, 3), lambda at: at)[0][cells])))
         plain = block((3, 3, 3), lambda at: at)

@@ -18,7 +18,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import frd  # noqa: E402
 
-from freecad.polycube import balance, ccx, recovery, symmetry  # noqa: E402
+from freecad.polycube import ccx, recovery, serendipity, symmetry  # noqa: E402
 
 YOUNG, POISSON, EXPANSION = 210000.0, 0.3, 2.3e-4
 #: rates of the stresses that CalculiX extrapolates, and of recovered ones
@@ -85,7 +85,7 @@ def grid(counts):
     numbers = np.full(shape, -1)
     numbers[kept] = np.arange(kept.sum())
     first = 2 * np.indices(counts).reshape(3, -1, 1)
-    corners = np.array(balance.CORNERS + balance.MIDDLES).T[:, None] + 1
+    corners = np.array(serendipity.CORNERS + serendipity.MIDDLES).T[:, None] + 1
     return (steps[:, kept] / (2 * np.array(counts))[:, None]).T, numbers[tuple(first + corners)]
 
 

@@ -17,7 +17,9 @@ struct Part {
     size.size = model.diagonal() / 15;
     mesh = tetrahedralise(model, size, monitor);
   }
-  LabelChoice choice() const { return {model, mesh, LabelOptions(), frames, true, std::vector<char>(static_cast<std::size_t>(model.edge_count()) + 1, 0), monitor}; }
+  LabelChoice choice() const {
+    return {model, mesh, LabelOptions(), frames, true, std::vector<char>(static_cast<std::size_t>(model.edge_count()) + 1, 0), monitor};
+  }
   Monitor monitor;
   CadModel model;
   std::vector<Mat3> frames;

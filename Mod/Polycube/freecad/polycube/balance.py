@@ -8,7 +8,7 @@ import math
 import os
 import re
 
-from . import compat, shapes
+from . import compat, serendipity, shapes
 from .load_sets import references
 from .words import tr
 
@@ -16,9 +16,6 @@ from .words import tr
 TOLERANCE = 0.005
 #: abscissas and weights of three Gauss points
 _GAUSS = ((-(0.6**0.5), 5 / 9), (0.0, 8 / 9), (0.6**0.5, 5 / 9))
-#: places of the 20 nodes of a cell in SMESH's order: corners, then the middles of edges below, above, upright
-CORNERS = ((-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1))
-MIDDLES = ((0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1), (-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0))
 
 
 class Balance:
@@ -138,31 +135,11 @@ def _volumes(mesh):
     for a, weight_a in _GAUSS:
         for b, weight_b in _GAUSS:
             for c, weight_c in _GAUSS:
-                value, slopes = shape_functions(nodes.shape[1], numpy.array((a, b, c)))
+                value, slopes = serendipity.shape_functions(nodes.shape[1], numpy.array((a, b, c)))
                 jacobian = numpy.abs(numpy.linalg.det(numpy.einsum("nk,mnd->mkd", slopes, corners)))
                 shares.append(jacobian[:, None] * value * (weight_a * weight_b * weight_c))
                 places.append(numpy.einsum("n,mnd->md", value, corners))
     return nodes, numpy.stack(shares, axis=1), numpy.stack(places, axis=1)
-
-
-def shape_functions(count, at):
-    """(values, slopes along three directions) of the shape functions of a cell with 8 or 20 nodes."""
-    import numpy
-
-    corner, middle = numpy.array(CORNERS, float), numpy.array(MIDDLES, float)
-    terms = 1 + corner * at
-    value = terms.prod(axis=1) / 8
-    slope = numpy.stack([corner[:, k] * numpy.delete(terms, k, 1).prod(axis=1) / 8 for k in range(3)], axis=1)
-    if count == 8:
-        return value, slope
-    bend = (corner * at).sum(axis=1) - 2
-    slope = slope * bend[:, None] + value[:, None] * corner
-    # along the edge of a middle 1 - x^2, across it 1 + its place times x
-    ends = numpy.where(middle == 0, 1 - at**2, 1 + middle * at)
-    turns = numpy.where(middle == 0, -2 * at, middle)
-    middles = ends.prod(axis=1) / 4
-    slopes = numpy.stack([turns[:, k] * numpy.delete(ends, k, 1).prod(axis=1) / 4 for k in range(3)], axis=1)
-    return numpy.concatenate([value * bend, middles]), numpy.concatenate([slope, slopes])
 
 
 def _printed(path, set_name):

@@ -7,7 +7,7 @@ of the difference between recovered stresses and those of the cells.
 import itertools
 import os
 
-from . import balance, recovery
+from . import recovery, serendipity
 from .words import tr
 
 #: how many faces are named
@@ -76,7 +76,7 @@ def energy_error(recovered, stiffness):
     error, energy, volumes = (numpy.zeros(len(recovered.cells)) for _ in range(3))
     # at these points, not at those of the samples: there both are alike
     for at, weight in zip(*recovery.gauss(3)):
-        shape, slopes = balance.shape_functions(20, at)
+        shape, slopes = serendipity.shape_functions(20, at)
         volume = weight * numpy.abs(numpy.linalg.det(numpy.einsum("nk,mnd->mkd", slopes, recovered.points[recovered.cells])))
         to_here = numpy.array([numpy.prod(at ** numpy.array(term)) for term in terms]) @ numpy.linalg.inv(corners)
         own, better = numpy.einsum("p,mps->ms", to_here, recovered.samples), numpy.einsum("n,mns->ms", shape, recovered.of_cells)

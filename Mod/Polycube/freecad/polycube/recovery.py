@@ -11,7 +11,7 @@ they are not to be trusted: there CalculiX's stresses are better. Theory: the sa
 
 import itertools
 
-from . import balance
+from . import serendipity
 
 #: Guess: weight against quadratic and cubic terms, a share of a sample's: what samples do not tell apart is left out. Linear stresses are reproduced in any case.
 _RIDGE = {2: 1e-10, 3: 1e-6}
@@ -74,7 +74,7 @@ def sample_places(points, cells):
     """(m, 8, 3), places of the samples."""
     import numpy
 
-    shapes = numpy.array([balance.shape_functions(20, place)[0] for place in gauss(2)[0]])
+    shapes = numpy.array([serendipity.shape_functions(20, place)[0] for place in gauss(2)[0]])
     return numpy.einsum("pn,mnd->mpd", shapes, points[cells])
 
 

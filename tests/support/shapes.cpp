@@ -257,6 +257,17 @@ std::string forked_bar(double radius, double arm) {
   return text(solid(BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 1}), arm, 3.3 * radius).Shape()).Shape()));
 }
 
+std::string claws(double radius, double degrees) {
+  const double disc = 0.35 * radius, gap = (90 - degrees) * std::numbers::pi / 180;
+  const auto above = [&](double r, double from, double angle) {
+    const gp_Ax2 axes({0, 0, disc}, {0, 0, 1}, {std::cos(from), std::sin(from), 0});
+    return BRepPrimAPI_MakeCylinder(axes, r, radius, angle).Shape();
+  };
+  TopoDS_Shape rest = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, 2 * disc).Shape(), above(0.5 * radius, 0, 2 * std::numbers::pi)).Shape();
+  for (int k = 1; k <= 4; ++k) rest = BRepAlgoAPI_Cut(rest, above(1.5 * radius, k * std::numbers::pi / 2 - gap, gap)).Shape();
+  return text(solid(rest));
+}
+
 std::string tangent_arm(double radius, double bore) {
   const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(radius, 2 * radius).Shape(), arm = block({0, -radius, 0.75 * radius}, {3 * radius, radius, 1.25 * radius});
   return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(bar, arm).Shape(), BRepPrimAPI_MakeCylinder(bore, 2 * radius).Shape()).Shape()));

@@ -292,6 +292,17 @@ std::string lens(double width, double height) {
   return text(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)));
 }
 
+std::string half_lens(double width, double height) {
+  const double bulge = width / 2 * std::tan(std::numbers::pi / 12);
+  const gp_Pnt left(-width / 2, 0, 0), right(width / 2, 0, 0), high(0, bulge, 0);
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(left, right));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(right, high, left).Value()));
+  const TopoDS_Shape prism = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)).Shape();
+  const gp_Ax2 axis({0, bulge / 2, 0}, {0, 0, 1});
+  return text(solid(BRepAlgoAPI_Cut(prism, BRepPrimAPI_MakeCylinder(axis, bulge / 4, height).Shape()).Shape()));
+}
+
 std::string half_cylinder(double radius, double height) {
   const TopoDS_Shape tool = block({-2 * radius, -2 * radius, -height}, {2 * radius, 0, 2 * height});
   return text(solid(BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, height).Shape(), tool).Shape()));

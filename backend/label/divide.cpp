@@ -129,13 +129,13 @@ double third_side(const Vec3& normal, const Vec3& way, int part, int other) {
 
 std::vector<FaceCut> plane_cuts(const Vec3& normal, const std::vector<Vec3>& vertices) {
   std::vector<FaceCut> cuts;
-  if (normal.cwiseAbs().minCoeff() > kLabelTuning.least_share) cuts.push_back({ray(normal, 0).normalized(), 0.5, true});
+  if (normal.cwiseAbs().minCoeff() > kLabelTuning.least_share) cuts.push_back({.across = ray(normal, 0).normalized(), .thirds = true});
   for (int along = 0; along < 3; ++along) {
     // The line runs along one axis and divides the plane between the two others.
     if (std::abs(normal[(along + 1) % 3]) < kLabelTuning.least_share || std::abs(normal[(along + 2) % 3]) < kLabelTuning.least_share) continue;
     const Vec3 across = normal.cross(Vec3::Unit(along)).normalized();
-    for (double share : {0.5, 0.35, 0.65}) cuts.push_back({across, share, false});
-    for (double share : shares_between(across, vertices)) cuts.push_back({across, share, false, true});
+    for (double share : {0.5, 0.35, 0.65}) cuts.push_back({.across = across, .share = share});
+    for (double share : shares_between(across, vertices)) cuts.push_back({.across = across, .share = share, .exact = true});
   }
   return cuts;
 }
@@ -146,7 +146,8 @@ std::vector<FaceCut> bent_cuts(const Vec3& mean, const Vec3& turning) {
   const int k = turning[(own + 1) % 3] > turning[(own + 2) % 3] ? (own + 1) % 3 : (own + 2) % 3;
   std::vector<FaceCut> cuts;
   if (turning[k] < kLabelTuning.least_turn) return cuts;
-  for (double share : kLabelTuning.bent_shares) cuts.push_back({Vec3::Unit(k), share, false});
+  for (double share : kLabelTuning.bent_shares) cuts.push_back({.across = Vec3::Unit(k), .share = share});
+  cuts.push_back({.across = Vec3::Unit(k), .share = kLabelTuning.bent_ends, .upper = 1 - kLabelTuning.bent_ends});
   return cuts;
 }
 
@@ -154,7 +155,7 @@ std::vector<FaceCut> cone_cuts(const Vec3& axis, double along) {
   int k = 0;
   if (axis.cwiseAbs().maxCoeff(&k) < kLabelTuning.aligned_cosine) return {};
   if (std::abs(along) < kLabelTuning.least_share || std::abs(along) > kLabelTuning.flat_cosine) return {};
-  return {{Vec3::Unit(k), 0.5, false, false, ConePart::kUpper}, {Vec3::Unit(k), 0.5, false, false, ConePart::kLower}};
+  return {{.across = Vec3::Unit(k), .level = ConePart::kUpper}, {.across = Vec3::Unit(k), .level = ConePart::kLower}};
 }
 
 double cut_middle(const TetMesh& mesh, int face, const FaceCut& cut, const Mat3& frame) {

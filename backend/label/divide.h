@@ -15,6 +15,7 @@ enum class ConePart { kNone, kLower, kUpper };
 struct FaceCut {
   Vec3 across = Vec3::Zero();  ///< in the frame of the labels, unit
   double share = 0.5;
+  double upper = 1;                  ///< share below a second cut, beyond which a third part lies; 1: there is none
   bool thirds = false;               ///< instead: three parts that meet in its middle, as the faces of a cube do in a corner
   bool exact = false;                ///< the mesh is cut there beforehand (cut_faces): the parts may be narrower than its triangles
   ConePart level = ConePart::kNone;  ///< of a cone

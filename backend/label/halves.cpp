@@ -38,7 +38,8 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
       half_[t] =
           third_at(s_.frame * s_.model.face(f).axis, s_.frame * ((s_.mesh.points[tri[0]] + s_.mesh.points[tri[1]] + s_.mesh.points[tri[2]]) / 3) - centre_[f]);
     } else if (sloping(f)) {
-      half_[t] = (along(f, tri[0]) + along(f, tri[1]) + along(f, tri[2])) / 3 > middle_[f][barrel(f) ? labels[t] : 0];
+      const double at = (along(f, tri[0]) + along(f, tri[1]) + along(f, tri[2])) / 3;
+      half_[t] = (at > middle(f, 1, labels[t]) ? 1 : 0) + (!barrel(f) && at > middle(f, 2, labels[t]) ? 1 : 0);
     } else if (s_.whole[f] && !s_.flat[f]) {
       int axis = 0;
       s_.normal[t].cwiseAbs().maxCoeff(&axis);
@@ -47,8 +48,10 @@ Halves::Halves(const FaceShapes& shapes, const std::vector<int>& labels) : s_(sh
   }
 }
 
-std::function<double(int)> Halves::border(int face, int label) const {
-  return [this, face, middle = middle_[face][barrel(face) ? static_cast<std::size_t>(label) : 0]](int n) { return along(face, n) - middle; };
+double Halves::middle(int face, int upper, int label) const { return middle_[face][static_cast<std::size_t>(barrel(face) ? label : upper - 1)]; }
+
+std::function<double(int)> Halves::border(int face, int upper, int label) const {
+  return [this, face, at = middle(face, upper, label)](int n) { return along(face, n) - at; };
 }
 
 std::function<double(int)> Halves::third_border(int face, int p, int q) const {
@@ -107,6 +110,7 @@ void Halves::find_middles(const std::vector<int>& labels) {
     }
     if (f == 0 || barrel_[f] > 0 || slope_[f].isZero()) continue;
     const double extent = ends[f][0].highest - ends[f][0].lowest;
+    middle_[f][1] = s_.cuts[f].upper < 1 ? ends[f][0].lowest + s_.cuts[f].upper * extent : kFar;
     for (int e : s_.model.face(static_cast<int>(f)).edges) {
       for (int v : s_.model.edge(e).vertices) {
         const double off = middle_[f][0] - slope_[f].dot(s_.frame * s_.model.vertex(v));

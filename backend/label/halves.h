@@ -35,8 +35,8 @@ class Halves {
   bool sloping(int face) const { return !slope_[face].isZero(); }
   /// A barrel whose sides are halved across its axis.
   bool barrel(int face) const { return barrel_[face] > 0; }
-  /// Positive in half 1, negative in half 0, in a sloping face; `label` is the side of a barrel.
-  std::function<double(int)> border(int face, int label) const;
+  /// Positive in half `upper`, negative in the one below it, in a sloping face; `label` is the side of a barrel.
+  std::function<double(int)> border(int face, int upper, int label) const;
   /// Positive in part `p`, negative in part `q` of a plane divided in thirds, beside their border.
   std::function<double(int)> third_border(int face, int p, int q) const;
 
@@ -45,12 +45,14 @@ class Halves {
   void find_middles(const std::vector<int>& labels);
   void find_centres();
   double along(int face, int node) const;
+  /// Of the cut below half `upper`.
+  double middle(int face, int upper, int label) const;
 
   FaceShapes s_;
   std::vector<int> half_;                      // per triangle
   std::vector<int> barrel_;                    // per CAD face: the first of those that make up the same oblique barrel, else 0
   std::vector<Vec3> slope_;                    // per CAD face: direction across the cut, else zero
-  std::vector<std::array<double, 6>> middle_;  // per CAD face: where it is cut along the slope; of a barrel, per label
+  std::vector<std::array<double, 6>> middle_;  // per CAD face: where it is cut along the slope, first and second; of a barrel, per label
   std::vector<Vec3> centre_;                   // per CAD face divided in thirds: where they meet, in the frame
 };
 

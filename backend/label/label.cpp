@@ -327,7 +327,8 @@ std::vector<BorderFunction> borders(const Plan& plan, const std::vector<int>& jo
       continue;
     }
     if (halves.sloping(face) && p % 8 != q % 8 && (p / 8 == q / 8 || s.is_cut_cone(face))) {
-      half_way.push_back({p % 8 > q % 8 ? arc.left : arc.right, p % 8 > q % 8 ? arc.right : arc.left, halves.border(face, p / 8 % 8), ends});
+      half_way.push_back(
+          {p % 8 > q % 8 ? arc.left : arc.right, p % 8 > q % 8 ? arc.right : arc.left, halves.border(face, std::max(p % 8, q % 8), p / 8 % 8), ends});
       continue;
     }
     const int l = s.whole[face] ? p % 8 : p / 8 % 8, m = s.whole[face] ? q % 8 : q / 8 % 8;

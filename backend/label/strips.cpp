@@ -69,6 +69,23 @@ std::optional<Strip> strip_beside(const Barrel& barrel, int face, double angle, 
   return Strip{face, {barrel.direction((near + far) / 2), barrel.direction(angle + side * room)}, label};
 }
 
+// The side of an edge along a generator, 1 towards larger and -1 towards smaller angles, on which the barrel is only beyond the edge's ends, as in the gap
+// beside a claw; 0 for none.
+double gap_side(const CadModel& model, int face, int edge) {
+  const CadFace& barrel = model.face(face);
+  const std::vector<Vec3> along = model.edge_samples(edge, 3);
+  const double step = kLabelTuning.beside * (along[1] - barrel.centre).cross(barrel.axis).norm();
+  const auto is_on = [&](const Vec3& at, double side) {
+    const Vec3 p = barrel.centre + Eigen::AngleAxisd(side * kLabelTuning.beside, barrel.axis) * (at - barrel.centre);
+    return model.project_to_face(face, p).distance < kLabelTuning.on_barrel * step;
+  };
+  const auto goes_on = [&](const Vec3& end, double side) { return is_on(end + step * (end - along[1]).normalized(), side); };
+  for (const double side : {1.0, -1.0}) {
+    if (is_on(along[1], -side) && !is_on(along[1], side) && (goes_on(along.front(), side) || goes_on(along.back(), side))) return side;
+  }
+  return 0;
+}
+
 // Is the direction in the strip?
 bool within(const Strip& s, const Vec3& arm) {
   return s.generator[0].cross(arm).dot(arm.cross(s.generator[1])) > 0 && arm.dot(s.generator[0] + s.generator[1]) > 0;
@@ -98,7 +115,14 @@ std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int fac
     if (edge.seam || edge.degenerate) continue;
     const std::vector<double> angles = course(model, barrel, e);
     const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
-    if (*most - *least < kLabelTuning.straight || std::abs(angles.back() - angles.front()) > std::numbers::pi) continue;
+    if (*most - *least < kLabelTuning.straight) {
+      // Only where the border would run on along the edge: a side further off is in nobody's way.
+      const double to_line = std::abs(barrel.label(*least).second) / 2;
+      const double side = to_line < kLabelTuning.near_generators ? gap_side(model, face, e) : 0;
+      if (side != 0) add(side > 0 ? *most : *least, side);
+      continue;
+    }
+    if (std::abs(angles.back() - angles.front()) > std::numbers::pi) continue;
     for (const auto& [furthest, side] : {std::pair(most, 1.0), std::pair(least, -1.0)}) {
       const bool at_end = furthest == angles.begin() || furthest + 1 == angles.end();
       // At a vertex the next edge has to turn back too.

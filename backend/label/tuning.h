@@ -37,6 +37,8 @@ struct LabelTuning {
   double least_turn = 0.1;
   /// Where a bent face is divided, as shares of its extent. Theory: in the middle for a lens, near an end for the trailing edge of a wing.
   std::array<double, 5> bent_shares{0.5, 0.3, 0.7, 0.15, 0.85};
+  /// Of its extent: what a bent face leaves at either end for two more labels, where the face opposite is a plane that may have but one. Guess.
+  double bent_ends = 0.25;
   /// Cosine, 60 degrees: two CAD edges that meet in a tip, both nearer than this to the axis of a boundary that goes forth on one and back on the other, make a
   /// turning point that no map opens, however short they are; smooth edges run flat there. Guess.
   double steep = 0.5;
@@ -115,6 +117,10 @@ struct LabelTuning {
   double beyond = 30 * (std::numbers::pi / 180);
   /// Radians: an edge that spans less runs along the barrel. Guess.
   double straight = 5 * (std::numbers::pi / 180);
+  /// Radians from an edge along a barrel: whether the barrel is there tells on which side of the edge it lies. Guess.
+  double beside = 0.01;
+  /// Of the way there: a point nearer to the barrel is on it. Guess.
+  double on_barrel = 0.2;
   /// Radians to both sides in which the line is looked for. Guess.
   double line_step = 3 * (std::numbers::pi / 180);
   /// Halvings of that. Theory: down to nothing.
@@ -127,10 +133,11 @@ struct LabelTuning {
   double strictness = 100;
 
   POLYCUBE_ENTRIES(aligned_cosine, flat_cosine, blunt_cosine, chamfer_turn, chamfer_from, chamfer_to, sharp_bend, small_share, narrow, most_divisions,
-                   first_strictness, least_share, least_turn, bent_shares, steep, real_share, least_facing, fold_score, sliver, least_gap, near_generators,
-                   across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, bisected, off_plane, bent_corners, towards, against,
-                   level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share, stray_area,
-                   room_triangles, least_room, most_room, close, beyond, straight, line_step, bisections, samples, widest_bend, strictness)
+                   first_strictness, least_share, least_turn, bent_shares, bent_ends, steep, real_share, least_facing, fold_score, sliver, least_gap,
+                   near_generators, across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, bisected, off_plane, bent_corners,
+                   towards, against, level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share,
+                   stray_area, room_triangles, least_room, most_room, close, beyond, straight, beside, on_barrel, line_step, bisections, samples, widest_bend,
+                   strictness)
 };
 
 inline constexpr const LabelTuning& kLabelTuning = tuning_in_force<LabelTuning>;

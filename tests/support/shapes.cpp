@@ -266,6 +266,17 @@ std::string forked_bar(double radius, double arm) {
   return text(solid(BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 1}), arm, 3.3 * radius).Shape()).Shape()));
 }
 
+std::string claws(double radius, double degrees) {
+  const double disc = 0.35 * radius, gap = (90 - degrees) * std::numbers::pi / 180;
+  const auto above = [&](double r, double from, double angle) {
+    const gp_Ax2 axes({0, 0, disc}, {0, 0, 1}, {std::cos(from), std::sin(from), 0});
+    return BRepPrimAPI_MakeCylinder(axes, r, radius, angle).Shape();
+  };
+  TopoDS_Shape rest = BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(radius, 2 * disc).Shape(), above(0.5 * radius, 0, 2 * std::numbers::pi)).Shape();
+  for (int k = 1; k <= 4; ++k) rest = BRepAlgoAPI_Cut(rest, above(1.5 * radius, k * std::numbers::pi / 2 - gap, gap)).Shape();
+  return text(solid(rest));
+}
+
 std::string tangent_arm(double radius, double bore) {
   const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(radius, 2 * radius).Shape(), arm = block({0, -radius, 0.75 * radius}, {3 * radius, radius, 1.25 * radius});
   return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(bar, arm).Shape(), BRepPrimAPI_MakeCylinder(bore, 2 * radius).Shape()).Shape()));
@@ -288,6 +299,17 @@ std::string lens(double width, double height) {
   wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(left, low, right).Value()));
   wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(right, high, left).Value()));
   return text(BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)));
+}
+
+std::string half_lens(double width, double height) {
+  const double bulge = width / 2 * std::tan(std::numbers::pi / 12);
+  const gp_Pnt left(-width / 2, 0, 0), right(width / 2, 0, 0), high(0, bulge, 0);
+  BRepBuilderAPI_MakeWire wire;
+  wire.Add(BRepBuilderAPI_MakeEdge(left, right));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(right, high, left).Value()));
+  const TopoDS_Shape prism = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()), gp_Vec(0, 0, height)).Shape();
+  const gp_Ax2 axis({0, bulge / 2, 0}, {0, 0, 1});
+  return text(solid(BRepAlgoAPI_Cut(prism, BRepPrimAPI_MakeCylinder(axis, bulge / 4, height).Shape()).Shape()));
 }
 
 std::string half_cylinder(double radius, double height) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -98,10 +99,29 @@ TEST(BentCuts, GoAcrossTheAxisAlongWhichTheNormalTurns) {
   ASSERT_FALSE(cuts.empty());
   for (const FaceCut& c : cuts) {
     EXPECT_EQ(c.across, Vec3::UnitX());
-    EXPECT_TRUE(c.share > 0 && c.share < 1 && !c.thirds);
+    EXPECT_TRUE(c.share > 0 && c.share < c.upper && c.upper <= 1 && !c.thirds);
   }
+  EXPECT_EQ(std::count_if(cuts.begin(), cuts.end(), [](const FaceCut& c) { return c.upper < 1; }), 1);
   EXPECT_EQ(bent_cuts(Vec3::UnitZ(), Vec3(0.1, 0.4, 0)).front().across, Vec3::UnitY());
   EXPECT_TRUE(bent_cuts(Vec3::UnitY(), Vec3(0.01, 0, 0.02)).empty());
+}
+
+// The chord has no second label: the arc needs three.
+TEST(BentCuts, MakeABoredHalfOfALensValid) {
+  const CadModel model = CadModel::from_brep(shapes::half_lens(40, 15));
+  TetMesh mesh = tets_of(model);
+  LabelReport report;
+  const Labelling result = label(model, mesh, {}, Monitor(), &report);
+  EXPECT_EQ(report.score, 0);
+  std::map<int, std::set<int>> labels;
+  for (std::size_t t = 0; t < result.label.size(); ++t) labels[mesh.triangle_face[t]].insert(result.label[t]);
+  for (const int f : model.faces()) {
+    if (model.face(f).kind == SurfaceKind::kPlane) {
+      EXPECT_EQ(labels[f].size(), 1u);
+    } else if (model.face(f).radius > 20) {
+      EXPECT_EQ(labels[f].size(), 3u);
+    }
+  }
 }
 
 // Two arcs that meet in two sharp edges: each must take a second label, or labels of one axis meet there.

@@ -45,6 +45,32 @@ TEST(Strips, NoneBesideAThinArmOrOnABareBar) {
   EXPECT_TRUE(find_strips(bare, Mat3::Identity(), bar_of(bare), 1).empty());
 }
 
+TEST(Strips, LeaveRoomInTheGapBesideAClaw) {
+  for (const double degrees : {42.0, 45.0, 48.0}) {
+    const CadModel model = CadModel::from_brep(shapes::claws(10, degrees));
+    int rim = 0;
+    for (const int f : model.faces()) {
+      if (model.face(f).radius > 9) rim = f;
+    }
+    const auto strips = find_strips(model, Mat3::Identity(), rim, 1);
+    ASSERT_EQ(strips.size(), 4u);
+    for (const Strip& s : strips) {
+      const Vec3 claw = Eigen::AngleAxisd(-degrees / 2 * M_PI / 180, Vec3::UnitZ()) * s.generator[0];
+      int axis = 0;
+      claw.cwiseAbs().maxCoeff(&axis);
+      EXPECT_EQ(s.label, 2 * axis + (claw[axis] < 0));                                            // the claw's outside
+      EXPECT_GT(s.generator[0].cross(s.generator[1])[2], std::sin((degrees - 42) * M_PI / 180));  // in the gap that follows it
+    }
+  }
+  // No border of labels is near the claws' sides.
+  const CadModel narrow = CadModel::from_brep(shapes::claws(10, 30));
+  for (const int f : narrow.faces()) {
+    if (narrow.face(f).radius > 9) {
+      EXPECT_TRUE(find_strips(narrow, Mat3::Identity(), f, 1).empty());
+    }
+  }
+}
+
 TEST(Strips, AreGivenToTheirSideUnlessTheyMayNotHaveIt) {
   const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
   const int bar = bar_of(model);

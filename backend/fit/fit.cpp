@@ -509,7 +509,7 @@ class Fitting {
     const double least = kFitTuning.held * score_.worst;
     const auto merit = [&](const Score& s) { return s.mean + kFitTuning.worst_weight * std::min(s.worst, goal()); };
     double above = score_.worst < goal() ? kFitTuning.raising : 1;
-    for (int round = 0; round < kFitTuning.even_rounds && above <= kFitTuning.highest; ++round) {
+    for (int round = 0; round < kFitTuning.even_rounds && above <= kFitTuning.highest && !options_.hurry(); ++round) {
       const Energy energy{.shape = options_.keep_sizes ? kFitTuning.kept_shape : kFitTuning.even_shape,
                           .right = 1,
                           .floor = above * score_.worst,

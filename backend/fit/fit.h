@@ -16,6 +16,8 @@ struct FitOptions {
   int threads = 2;  ///< the result does not depend on it
   /// Cells keep the sizes that they come with; else those of neighbours even out, and small cells beside large ones grow.
   bool keep_sizes = false;
+  /// Whether time runs short: then good cells are not evened out.
+  std::function<bool()> hurry = [] { return false; };
 };
 
 struct FitReport {

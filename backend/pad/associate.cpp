@@ -1,6 +1,7 @@
 #include "pad/associate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -11,7 +12,9 @@
 #include <optional>
 #include <queue>
 #include <set>
+#include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
 #include "core/charts.h"
 #include "core/error.h"
@@ -30,22 +33,41 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * d).norm();
 }
 
-// Half edges of the boundary quads.
+// Half edges of the boundary quads: number 4 q + k begins at corner k of quad q, which is on its left.
 struct Surface {
-  explicit Surface(const std::vector<Quad>& quads, std::size_t n_points) : out(n_points) {
-    left.reserve(quads.size() * 4);
+  explicit Surface(const std::vector<Quad>& quads, std::size_t n_points) : out(n_points), halves(n_points) {
+    std::vector<std::vector<std::pair<int, int>>> leaving(n_points);
     for (int q = 0; q < static_cast<int>(quads.size()); ++q) {
-      for (int k = 0; k < 4; ++k) {
-        left[key(quads[q][k], quads[q][(k + 1) % 4])] = q;
-        out[quads[q][k]].push_back(quads[q][(k + 1) % 4]);
+      for (int k = 0; k < 4; ++k) leaving[quads[q][k]].emplace_back(quads[q][(k + 1) % 4], 4 * q + k);
+    }
+    for (std::size_t n = 0; n < n_points; ++n) {
+      std::sort(leaving[n].begin(), leaving[n].end());
+      for (const auto& [to, half] : leaving[n]) {
+        out[n].push_back(to);
+        halves[n].push_back(half);
       }
     }
-    for (auto& o : out) std::sort(o.begin(), o.end());
+    twin.resize(4 * quads.size(), -1);
+    for (int h = 0; h < static_cast<int>(twin.size()); ++h) {
+      const int a = quads[h / 4][h % 4], b = quads[h / 4][(h + 1) % 4];
+      const auto found = std::find(out[b].begin(), out[b].end(), a);
+      if (found != out[b].end()) twin[h] = halves[b][static_cast<std::size_t>(found - out[b].begin())];
+    }
   }
-  int left_of(int a, int b) const { return left.at(key(a, b)); }
+  int half(int a, int b) const {
+    const auto found = std::find(out[a].begin(), out[a].end(), b);
+    if (found == out[a].end()) throw std::out_of_range("no boundary edge joins the nodes");
+    return halves[a][static_cast<std::size_t>(found - out[a].begin())];
+  }
+  int left_of(int a, int b) const { return half(a, b) / 4; }
+  int right_of(int half) const {
+    if (twin[half] < 0) throw std::out_of_range("the boundary is open");
+    return twin[half] / 4;
+  }
 
-  std::unordered_map<std::uint64_t, int> left;  // directed edge -> quad on its left
-  std::vector<std::vector<int>> out;            // per node: neighbours, ascending
+  std::vector<std::vector<int>> out;     // per node: neighbours, ascending
+  std::vector<std::vector<int>> halves;  // those that go there
+  std::vector<int> twin;                 // the half edge that goes back, -1 where there is none
 };
 
 // A CAD edge at one of its vertices.
@@ -67,7 +89,7 @@ class Associator {
       : model_(model), tets_(tets), b_(b), options_(options), monitor_(monitor), surface_(b.quads, b.points.size()) {
     node_charts_.resize(b.points.size());
     for (std::size_t q = 0; q < b.quads.size(); ++q) {
-      for (int n : b.quads[q]) node_charts_[n].insert(b.quad_chart[q]);
+      for (int n : b.quads[q]) node_charts_[n].push_back(b.quad_chart[q]);
     }
     for (int n = 0; n < static_cast<int>(b.points.size()); ++n) {
       if (!node_charts_[n].empty()) nodes_.push_back(n);
@@ -77,12 +99,34 @@ class Associator {
     for (int c = 0; c < static_cast<int>(charts.size()); ++c) {
       for (int t : charts[c].triangles) {
         chart_of_triangle_[t] = c;
-        for (int n : tets.triangles[t]) tet_charts_[n].insert(c);
+        for (int n : tets.triangles[t]) tet_charts_[n].push_back(c);
+      }
+    }
+    for (auto* lists : {&node_charts_, &tet_charts_}) {
+      for (std::vector<int>& list : *lists) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
       }
     }
     for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) {
       for (int k = 0; k < 3; ++k) triangle_left_[key(tets.triangles[t][k], tets.triangles[t][(k + 1) % 3])] = t;
     }
+    face_triangles_.resize(model.face_count() + 1);
+    triangle_sides_.resize(tets.triangles.size());
+    std::unordered_map<std::uint64_t, int> side;
+    for (int t = 0; t < static_cast<int>(tets.triangles.size()); ++t) {
+      face_triangles_[tets.triangle_face[t]].push_back(t);
+      for (int k = 0; k < 3; ++k) {
+        const auto [from, to] = std::minmax(tets.triangles[t][k], tets.triangles[t][(k + 1) % 3]);
+        triangle_sides_[t][k] = side.try_emplace(key(from, to), static_cast<int>(side.size())).first->second;
+      }
+    }
+    sides_ = static_cast<int>(side.size());
+    off_.resize(b.points.size());
+    off_of_.assign(b.points.size(), 0);
+    best_.resize(surface_.twin.size());
+    before_.resize(surface_.twin.size());
+    best_of_.assign(surface_.twin.size(), 0);
   }
 
   // Edges block each other's way. Those that found none go first the next time (rip up and reroute); the round that loses least counts.
@@ -92,6 +136,7 @@ class Associator {
       if (!edge.seam && !edge.degenerate && !edge.tiny) real_.push_back(e);
     }
     find_tips();
+    find_places();
     failures_.assign(model_.edge_count() + 1, 0);
     find_spokes();
     std::optional<Association> best;
@@ -253,7 +298,14 @@ class Associator {
     return nodes.size() < 2 ? -1 : s.end == 0 ? nodes[1] : nodes[nodes.size() - 2];
   }
 
-  void place_vertices() {
+  // Charts of the tet mesh's point that the mesh node lacks.
+  std::ptrdiff_t missing_charts(int tet_node, int n) const {
+    const std::vector<int>&wanted = tet_charts_[tet_node], &there = node_charts_[n];
+    return std::count_if(wanted.begin(), wanted.end(), [&](int c) { return std::find(there.begin(), there.end(), c) == there.end(); });
+  }
+
+  // Nodes near CAD vertices.
+  void find_places() {
     std::vector<char> wanted(model_.vertex_count() + 1, 0);
     for (int e : real_) {
       if (ignored(e)) continue;
@@ -264,6 +316,24 @@ class Associator {
     for (int n = 0; n < static_cast<int>(tets_.points.size()); ++n) {
       if (tets_.point_cad[n].dim == 0) tet_node[tets_.point_cad[n].id] = n;
     }
+    for (const int v : model_.vertices()) {
+      if (!wanted[v] || tet_node[v] < 0) continue;
+      const std::vector<int>& charts = tet_charts_[tet_node[v]];
+      const Vec3 at = model_.vertex(v);
+      for (int n : nodes_) {
+        const double d = (b_.points[n] - at).norm() / options_.size;
+        if (d > kPadTuning.reach) continue;
+        // A vertex on a chart boundary or corner belongs on one of the mesh. The node of its image has its very place, and may lack a chart that is squeezed
+        // to a line there.
+        const bool image = d < kPadTuning.same_place;
+        const auto missing = image ? 0 : missing_charts(tet_node[v], n);
+        const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
+        places_.push_back({v, n, d + 2.0 * static_cast<double>(missing), surplus, 0.01 * static_cast<double>(charts.size())});
+      }
+    }
+  }
+
+  void place_vertices() {
     // An edge without a path may have begun at a node of a chart boundary, which other edges have to pass, though its vertex is off it.
     std::vector<int> failures(model_.vertex_count() + 1, 0);
     for (int e : real_) {
@@ -274,21 +344,8 @@ class Associator {
       int vertex, node;
     };
     std::vector<Candidate> candidates;
-    for (const int v : model_.vertices()) {
-      if (!wanted[v] || tet_node[v] < 0) continue;
-      const std::set<int>& charts = tet_charts_[tet_node[v]];
-      for (int n : nodes_) {
-        const double d = (b_.points[n] - model_.vertex(v)).norm() / options_.size;
-        if (d > kPadTuning.reach) continue;
-        // A vertex on a chart boundary or corner belongs on one of the mesh. The node of its image has its very place, and may lack a chart that is squeezed
-        // to a line there.
-        const bool image = d < kPadTuning.same_place;
-        const auto missing = image ? 0 : std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
-        const auto surplus = static_cast<double>(node_charts_[n].size() + missing) - static_cast<double>(charts.size());
-        candidates.push_back(
-            {d + 2.0 * static_cast<double>(missing) + kPadTuning.surplus_price * failures[v] * surplus - 0.01 * static_cast<double>(charts.size()), v, n});
-      }
-    }
+    candidates.reserve(places_.size());
+    for (const Place& p : places_) candidates.push_back({p.off + kPadTuning.surplus_price * failures[p.vertex] * p.surplus - p.bonus, p.vertex, p.node});
     std::sort(candidates.begin(), candidates.end(),
               [](const Candidate& a, const Candidate& b) { return std::tie(a.cost, a.vertex, a.node) < std::tie(b.cost, b.vertex, b.node); });
     vertex_node_.assign(model_.vertex_count() + 1, -1);
@@ -316,8 +373,8 @@ class Associator {
     const int p = triangle_chart(triangle_left_.at(key(a, b))), q = triangle_chart(triangle_left_.at(key(b, a)));
     return std::minmax(p, q);
   }
-  std::pair<int, int> charts_beside(int a, int b) const {
-    const int p = b_.quad_chart[surface_.left_of(a, b)], q = b_.quad_chart[surface_.left_of(b, a)];
+  std::pair<int, int> charts_beside(int half) const {
+    const int p = b_.quad_chart[half / 4], q = b_.quad_chart[surface_.right_of(half)];
     return std::minmax(p, q);
   }
   int triangle_chart(int t) const { return chart_of_triangle_[t]; }
@@ -401,7 +458,7 @@ class Associator {
     path.deviation = sum / static_cast<double>(path.nodes.size());
     const auto pairs = chart_pairs(chain);
     for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) {
-      path.astray += pairs.count(charts_beside(path.nodes[i], path.nodes[i + 1])) == 0;
+      path.astray += pairs.count(charts_beside(surface_.half(path.nodes[i], path.nodes[i + 1]))) == 0;
     }
     path.astray /= static_cast<double>(path.nodes.size() - 1);
     for (std::size_t i = 0; i + 1 < path.nodes.size(); ++i) taken_.insert(std::minmax(path.nodes[i], path.nodes[i + 1]));
@@ -415,9 +472,8 @@ class Associator {
     for (int n : nodes_) {
       if (owner_[n] != 0 || std::find(not_these.begin(), not_these.end(), n) != not_these.end()) continue;
       const double d = (b_.points[n] - tets_.points[tet_node]).norm() / options_.size;
-      const auto& charts = tet_charts_[tet_node];
-      const auto missing = std::count_if(charts.begin(), charts.end(), [&](int c) { return node_charts_[n].count(c) == 0; });
-      const double cost = d + 2.0 * static_cast<double>(missing);
+      if (d >= best_cost) continue;
+      const double cost = d + 2.0 * static_cast<double>(missing_charts(tet_node, n));
       if (cost < best_cost) {
         best_cost = cost;
         best = n;
@@ -437,50 +493,49 @@ class Associator {
   // Dijkstra over directed boundary edges, cheap near the chain. `first`, `last`: `from`, `to` is the vertex where edge `e` begins, ends.
   std::vector<int> shortest(const std::vector<int>& chain, int from, int to, int e, bool first, bool last, double& deviation) {
     const auto pairs = chart_pairs(chain);
-    std::unordered_map<int, double> off;
+    ++search_;
     const auto away = [&](int n) {
-      if (auto it = off.find(n); it != off.end()) return it->second;
+      if (off_of_[n] == search_) return off_[n];
       double d = kNever;
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) d = std::min(d, distance_to_segment(b_.points[n], tets_.points[chain[i]], tets_.points[chain[i + 1]]));
-      off[n] = d;
+      off_of_[n] = search_;
+      off_[n] = d;
       return d;
     };
     struct Item {
       double cost;
-      int a, b;
+      int a, b, half;
       bool operator>(const Item& o) const { return std::tie(cost, a, b) > std::tie(o.cost, o.a, o.b); }
     };
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-    std::unordered_map<std::uint64_t, double> best;
-    std::unordered_map<std::uint64_t, int> before;  // directed edge -> the node before it
-    const auto push = [&](double base, int previous, int a, int b) {
+    const auto push = [&](double base, int previous, int a, int b, int half) {
       if ((b != to && owner_[b] != 0) || (b == to && taken_.count(std::minmax(a, b)) > 0)) return;
       const double da = away(a), db = away(b), size = options_.size;
       if (db > kPadTuning.reach * size && b != to) return;
       double cost = (b_.points[a] - b_.points[b]).norm() + 1e-3 * size;
       const double mean = (da + db) / (2 * size);
       cost *= 1 + 8 * mean + 16 * mean * mean;
-      if (pairs.count(charts_beside(a, b)) == 0) cost = 6 * cost + size;
+      if (pairs.count(charts_beside(half)) == 0) cost = 6 * cost + size;
       if (previous >= 0) cost += turn_price(previous, a, b);
       if (previous < 0 && first) cost += spoke_price(model_.edge(e).vertices[0], e, 0, from, b);
       if (b == to && last) cost += spoke_price(model_.edge(e).vertices[1], e, 1, to, a);
-      const std::uint64_t k = key(a, b);
-      if (auto it = best.find(k); it != best.end() && it->second <= base + cost) return;
-      best[k] = base + cost;
-      before[k] = previous;
-      queue.push({base + cost, a, b});
+      if (best_of_[half] == search_ && best_[half] <= base + cost) return;
+      best_of_[half] = search_;
+      best_[half] = base + cost;
+      before_[half] = previous;
+      queue.push({base + cost, a, b, half});
     };
-    for (int n : surface_.out[from]) push(0, -1, from, n);
+    for (std::size_t i = 0; i < surface_.out[from].size(); ++i) push(0, -1, from, surface_.out[from][i], surface_.halves[from][i]);
     while (!queue.empty()) {
       const Item item = queue.top();
       queue.pop();
-      if (item.cost > best[key(item.a, item.b)]) continue;
+      if (item.cost > best_[item.half]) continue;
       if (item.b == to) {
         std::vector<int> nodes{item.b};
         int a = item.a, b = item.b;
         while (a >= 0) {
           nodes.push_back(a);
-          const int p = before[key(a, b)];
+          const int p = before_[surface_.half(a, b)];
           b = a;
           a = p;
         }
@@ -488,8 +543,9 @@ class Associator {
         for (int n : nodes) deviation += away(n);
         return nodes;
       }
-      for (int n : surface_.out[item.b]) {
-        if (n != item.a) push(item.cost, item.a, item.b, n);
+      for (std::size_t i = 0; i < surface_.out[item.b].size(); ++i) {
+        const int n = surface_.out[item.b][i];
+        if (n != item.a) push(item.cost, item.a, item.b, n, surface_.halves[item.b][i]);
       }
     }
     return {};
@@ -509,17 +565,17 @@ class Associator {
       const int a = find(model_.edge(e).faces[0]), b = find(model_.edge(e).faces[1]);
       group[std::max(a, b)] = std::min(a, b);
     }
-    std::unordered_map<std::uint64_t, int> cut;  // directed mesh edge on a path -> CAD face that belongs on its left
-    std::unordered_map<std::uint64_t, int> cut_edge;
+    std::vector<int> cut(surface_.twin.size(), 0);  // per half edge on a path: CAD face that belongs on its left, 0 for others
+    std::vector<int> cut_edge(surface_.twin.size(), 0);
     for (int e : real_) {
       if (lost_[e]) continue;
       const auto& chain = options_.edge_chains[e];
       const int left = tets_.triangle_face[triangle_left_.at(key(chain[0], chain[1]))], right = tets_.triangle_face[triangle_left_.at(key(chain[1], chain[0]))];
       for (std::size_t i = 0; i + 1 < path_[e].nodes.size(); ++i) {
-        const int a = path_[e].nodes[i], b = path_[e].nodes[i + 1];
-        cut[key(a, b)] = left;
-        cut[key(b, a)] = right;
-        cut_edge[key(a, b)] = cut_edge[key(b, a)] = e;
+        const int there = surface_.half(path_[e].nodes[i], path_[e].nodes[i + 1]), back = surface_.half(path_[e].nodes[i + 1], path_[e].nodes[i]);
+        cut[there] = left;
+        cut[back] = right;
+        cut_edge[there] = cut_edge[back] = e;
       }
     }
     const int n = static_cast<int>(b_.quads.size());
@@ -542,17 +598,14 @@ class Associator {
       members.push_back({seed});
       region[seed] = id;
       std::map<int, std::set<int>> faces;  // patch -> edges that say so
-      std::map<int, int> votes;
       for (std::size_t i = 0; i < members[id].size(); ++i) {
         const int q = members[id][i];
-        ++votes[find(tets_.triangle_face[b_.quad_triangle[q]])];
-        for (int k = 0; k < 4; ++k) {
-          const int a = b_.quads[q][k], b = b_.quads[q][(k + 1) % 4];
-          if (auto it = cut.find(key(a, b)); it != cut.end()) {
-            faces[find(it->second)].insert(cut_edge[key(a, b)]);
+        for (int h = 4 * q; h < 4 * q + 4; ++h) {
+          if (cut[h] != 0) {
+            faces[find(cut[h])].insert(cut_edge[h]);
             continue;
           }
-          const int m = surface_.left_of(b, a);
+          const int m = surface_.right_of(h);
           if (region[m] >= 0) continue;
           region[m] = id;
           members[id].push_back(m);
@@ -560,6 +613,8 @@ class Associator {
       }
       int patch = -1;
       if (faces.empty()) {
+        std::map<int, int> votes;
+        for (const int q : members[id]) ++votes[find(tets_.triangle_face[b_.quad_triangle[q]])];
         patch = std::max_element(votes.begin(), votes.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
       } else if (faces.size() == 1) {
         patch = faces.begin()->first;
@@ -593,29 +648,38 @@ class Associator {
     return 0;
   }
 
-  template <class Cells>
-  static int euler(const Cells& cells) {
-    std::set<int> nodes;
-    std::set<std::pair<int, int>> edges;
-    for (const auto& c : cells) {
-      for (std::size_t k = 0; k < c.size(); ++k) {
-        nodes.insert(c[k]);
-        edges.insert(std::minmax(c[k], c[(k + 1) % c.size()]));
+  int quad_euler(const std::vector<int>& quads) const {
+    std::vector<char> node(b_.points.size(), 0), side(surface_.twin.size(), 0);
+    int chi = static_cast<int>(quads.size());
+    for (const int q : quads) {
+      for (int k = 0; k < 4; ++k) {
+        const int h = 4 * q + k;
+        chi += !std::exchange(node[b_.quads[q][k]], 1);
+        chi -= !std::exchange(side[std::max(h, surface_.twin[h])], 1);
       }
     }
-    return static_cast<int>(nodes.size()) - static_cast<int>(edges.size()) + static_cast<int>(cells.size());
-  }
-  int quad_euler(const std::vector<int>& quads) const {
-    std::vector<Quad> cells;
-    cells.reserve(quads.size());
-    for (int q : quads) cells.push_back(b_.quads[q]);
-    return euler(cells);
+    return chi;
   }
   std::map<int, int> tet_euler(const std::function<int(int)>& find) const {
-    std::map<int, std::vector<Triangle>> cells;
-    for (std::size_t t = 0; t < tets_.triangles.size(); ++t) cells[find(tets_.triangle_face[t])].push_back(tets_.triangles[t]);
+    std::map<int, std::vector<int>> patches;
+    for (const int f : model_.faces()) {
+      if (!face_triangles_[f].empty()) patches[find(f)].push_back(f);
+    }
     std::map<int, int> result;
-    for (const auto& [patch, triangles] : cells) result[patch] = euler(triangles);
+    std::vector<int> node(tets_.points.size(), 0), side(static_cast<std::size_t>(sides_), 0);  // the last patch that had it
+    for (const auto& [patch, faces] : patches) {
+      int chi = 0;
+      for (const int f : faces) {
+        for (const int t : face_triangles_[f]) {
+          ++chi;
+          for (int k = 0; k < 3; ++k) {
+            chi += std::exchange(node[tets_.triangles[t][k]], patch) != patch;
+            chi -= std::exchange(side[triangle_sides_[t][k]], patch) != patch;
+          }
+        }
+      }
+      result[patch] = chi;
+    }
     return result;
   }
 
@@ -686,13 +750,29 @@ class Associator {
   const AssociateOptions& options_;
   const Monitor& monitor_;
   Surface surface_;
-  std::vector<int> nodes_;                  // boundary nodes
-  std::vector<std::set<int>> node_charts_;  // per mesh node
-  std::vector<std::set<int>> tet_charts_;   // per tet mesh point
+  std::vector<int> nodes_;                     // boundary nodes
+  std::vector<std::vector<int>> node_charts_;  // per mesh node, ascending
+  std::vector<std::vector<int>> tet_charts_;   // per tet mesh point, ascending
   std::vector<int> chart_of_triangle_;
   std::unordered_map<std::uint64_t, int> triangle_left_;
-  std::vector<int> real_;  // CAD edges that count
-  std::vector<int> tips_;  // CAD vertices without such edges that count all the same
+  std::vector<std::vector<int>> face_triangles_;    // per CAD face
+  std::vector<std::array<int, 3>> triangle_sides_;  // numbers of the triangle's edges
+  int sides_ = 0;                                   // how many edges the triangles have
+  // A node where a CAD vertex may be placed: what that costs, and charts that the node has and the vertex has not.
+  struct Place {
+    int vertex, node;
+    double off, surplus, bonus;
+  };
+  std::vector<Place> places_;
+  // Of the search for a path: what was found in an earlier one does not count.
+  int search_ = 0;
+  std::vector<double> off_;   // per node: distance from the chain
+  std::vector<int> off_of_;   // the search that it is from
+  std::vector<double> best_;  // per half edge: cost up to its end
+  std::vector<int> before_;   // the node before it
+  std::vector<int> best_of_;  // the search that these are from
+  std::vector<int> real_;     // CAD edges that count
+  std::vector<int> tips_;     // CAD vertices without such edges that count all the same
   std::vector<char> lost_;
   std::vector<int> vertex_node_;
   std::vector<int> owner_;  // per mesh node: 0 free, -v vertex, e edge

@@ -19,22 +19,31 @@ namespace {
 MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, Monitor& searching, const Monitor& monitor) {
   const auto begun = Monitor::Clock::now();
   const auto hurry = [&, begun] {
-    const auto deadline = searching.deadline();
+    const auto deadline = monitor.deadline();
     return deadline != Monitor::Clock::time_point::max() &&
            std::chrono::duration<double>(Monitor::Clock::now() - begun) > kPipelineTuning.hurry * std::chrono::duration<double>(deadline - begun);
   };
   Evaluator evaluator(pose, options, structures, clock, searching, hurry);
   const Budget budget = budget_of(options.effort);
+  bool mesh = false;
   const auto evaluate = [&](const Plan& plan, const Made* from, int fits) {
-    Outcome outcome = evaluator.evaluate(plan, from, fits);
+    if (!mesh) searching.set_deadline(deadline_of_plan(Monitor::Clock::now(), monitor.deadline()));
+    Outcome outcome;
+    try {
+      outcome = evaluator.evaluate(plan, from, fits);
+    } catch (const OutOfTime&) {
+      if (mesh || Monitor::Clock::now() >= monitor.deadline()) throw;
+      outcome.failure = Failure{StageFailed("fit", "its share of the time was over"), {}};
+    }
     if (outcome.score && monitor.deadline() != Monitor::Clock::time_point::max()) {
+      mesh = true;
       const std::chrono::duration<double> finishing(kPipelineTuning.finishing * evaluator.gate_seconds());
       searching.set_deadline(monitor.deadline() - std::chrono::duration_cast<Monitor::Clock::duration>(finishing));
     }
     return outcome;
   };
   const Schedule schedule(keeping_plans(options, evaluator.label_order()), last_plans(), budget);
-  const SearchResult found = search(schedule, budget, evaluate, searching, hurry);
+  const SearchResult found = search(schedule, budget, evaluate, searching, [&] { return hurry() || evaluator.pressed(); });
   MeshResult result = evaluator.result(found.best);
   result.report.plan = found.plan.name;
   result.report.plans_tried = found.tried;

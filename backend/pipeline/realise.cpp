@@ -1,18 +1,33 @@
 #include "pipeline/realise.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "pipeline/tuning.h"
 
 namespace polycube {
 
-RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling& labelling, Features& features, const DeformOptions& options,
-                    const Monitor& monitor, const std::vector<Chart>& fixed) {
+RealisedMap realise_bare(const TetMesh& tets, const Labelling& labelling, const DeformOptions& options, const Monitor& monitor,
+                         const std::vector<Chart>& fixed) {
   RealisedMap bare;
   bare.map = deform(tets, labelling.frame, labelling.label, fixed, options, monitor, &bare.report);
-  if (features.charts.empty()) return bare;
+  return bare;
+}
+
+RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling& labelling, Features& features, const DeformOptions& options,
+                    const Monitor& monitor, const std::vector<Chart>& fixed) {
+  std::optional<RealisedMap> made;
+  const auto bare = [&]() -> const RealisedMap& {
+    if (!made) made = realise_bare(tets, labelling, options, monitor, fixed);
+    return *made;
+  };
+  return realise(model, tets, labelling, features, options, monitor, bare, fixed);
+}
+
+RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling& labelling, Features& features, const DeformOptions& options,
+                    const Monitor& monitor, const std::function<const RealisedMap&()>& bare, const std::vector<Chart>& fixed) {
+  if (features.charts.empty()) return bare();
   std::vector<char> folded(tets.tets.size(), 0);
-  for (int t : bare.report.flipped_tets) folded[t] = 1;
   std::vector<std::vector<int>> edges_at(tets.points.size());
   for (std::size_t i = 0; i < tets.segments.size(); ++i) {
     for (int n : tets.segments[i]) edges_at[n].push_back(tets.segment_edge[i]);
@@ -28,13 +43,15 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
   };
   const auto give_up = [&] {
     without([](int) { return true; });
-    return bare;
+    return bare();
   };
   for (int round = 0; round < kPipelineTuning.realise_rounds; ++round) {
     std::vector<Chart> charts;
     for (const FeatureChart& f : features.charts) charts.push_back(f.chart);
     charts.insert(charts.end(), fixed.begin(), fixed.end());
     result.map = deform(tets, labelling.frame, labelling.label, charts, options, monitor, &result.report);
+    if (result.report.flipped == 0) return result;
+    for (int t : bare().report.flipped_tets) folded[t] = 1;
     std::vector<int> blame(static_cast<std::size_t>(model.edge_count()) + 1, 0);
     for (int t : result.report.flipped_tets) {
       if (folded[t]) continue;
@@ -49,10 +66,10 @@ RealisedMap realise(const CadModel& model, const TetMesh& tets, const Labelling&
     if (worst == 0 || round + 1 == kPipelineTuning.realise_rounds) break;
     // Those that fold much go first: others may only stand beside them.
     without([&](int e) { return 3 * blame[e] >= worst; });
-    if (features.charts.empty()) return bare;
+    if (features.charts.empty()) return bare();
   }
   // Many folds more that cannot be blamed on single features: none of them is worth it. The blocks bear a few.
-  const int folds = bare.report.flipped;
+  const int folds = bare().report.flipped;
   return result.report.flipped <= folds + std::max(kPipelineTuning.few_folds, folds / 2) ? result : give_up();
 }
 

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "core/parallel.h"
-#include "pipeline/realise.h"
 #include "pipeline/tuning.h"
 
 namespace polycube {
@@ -113,15 +112,13 @@ std::vector<LabelVariant> Structures::label_order() {
   const Structure& best = built({.labels = order.front()});
   if (best.failure || best.flipped > 0) prefer_facing(order);
   if (const std::optional<LabelVariant> along = clock_.stage("label", [&] { return labellings(1).along_bend(); }); along) {
-    const bool better = by_map(*along) < by_map(order.front());
-    order.insert(order.begin() + (better ? 0 : 1), *along);
+    const auto key = [&](const LabelVariant& v) {
+      const Rank rank = rank_by_map(v);
+      return std::tuple(rank.fails, magnitude(rank.flipped), rank.distortion);
+    };
+    order.insert(order.begin() + (key(*along) < key(order.front()) ? 0 : 1), *along);
   }
   return order;
-}
-
-std::tuple<bool, int, double> Structures::by_map(const LabelVariant& variant) {
-  const Structure& s = built({.labels = variant});
-  return {s.failure.has_value(), magnitude(s.flipped), s.distortion};
 }
 
 // Where the map of the first turns tets over, and regions of it stand square to their label's axis: those with fewer such regions and other frames, if nothing
@@ -132,7 +129,7 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   std::vector<LabelVariant> more;
   for (const LabelVariant& v : labellings(1).facing()) {
     const Labelled& l = labelled(v);
-    const auto is_the_same = [&](const LabelVariant& other) { return other.frame == v.frame && labelled(other).labelling.label == l.labelling.label; };
+    const auto is_the_same = [&](const LabelVariant& other) { return same_labels(v, other); };
     if (l.faults <= first.faults && l.report.folded_parts <= first.report.folded_parts && std::none_of(more.begin(), more.end(), is_the_same))
       more.push_back(v);
   }
@@ -140,11 +137,15 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
                    [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_parts < labelled(y).report.folded_parts; });
   more.insert(more.begin(), order.front());
   more.resize(std::min(more.size(), kPipelineTuning.mapped));
-  const auto key = [&](const LabelVariant& v) {
-    const Structure& s = built({.labels = v});
-    return std::tuple(s.failure.has_value(), s.flipped, s.distortion);
-  };
-  std::stable_sort(more.begin(), more.end(), [&](const LabelVariant& x, const LabelVariant& y) { return key(x) < key(y); });
+  std::stable_sort(more.begin(), more.end(), [&](const LabelVariant& x, const LabelVariant& y) { return rank_by_map(x) < rank_by_map(y); });
+  // A few flips more are worth fewer such regions.
+  const Rank least = rank_by_map(more.front());
+  const auto end = std::find_if(more.begin(), more.end(), [&](const LabelVariant& v) {
+    const Rank rank = rank_by_map(v);
+    return rank.fails || rank.flipped > least.flipped + std::max(kPipelineTuning.few_folds, least.flipped / 2);
+  });
+  std::stable_sort(more.begin(), end,
+                   [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_parts < labelled(y).report.folded_parts; });
   order.erase(order.begin());
   order.insert(order.begin(), more.begin(), more.end());
 }
@@ -159,6 +160,38 @@ const Labelled& Structures::labelled() {
   return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(choice.order().front()); });
 }
 
+DeformOptions Structures::deform_options() const {
+  DeformOptions result;
+  result.merge = merge_distance(size_, model_.diagonal());
+  result.threads = thread_count(options_.threads);
+  return result;
+}
+
+const Structures::BareMap& Structures::bare_map(const LabelVariant& variant, double tet_size) {
+  const auto found = bare_.find({variant, tet_size});
+  if (found != bare_.end()) return found->second;
+  const Labelled& chosen = labelled(variant, tet_size);
+  BareMap made;
+  try {
+    made.realised = realise_bare(chosen.mesh, chosen.labelling, deform_options(), monitor_);
+  } catch (const StageFailed& e) {
+    made.failure = e;
+  }
+  return bare_.emplace(std::pair(variant, tet_size), std::move(made)).first->second;
+}
+
+// Features are not what tells labellings apart, and to find out which of them a map can hold takes up to four maps more.
+Structures::Rank Structures::rank_by_map(const LabelVariant& variant) {
+  const BareMap& bare = clock_.stage("deform", [&]() -> const BareMap& { return bare_map(variant, 1); });
+  const auto made = structures_.find({.labels = variant});
+  const bool fails = bare.failure || (made != structures_.end() && made->second.failure);
+  return {fails, bare.realised.report.flipped, bare.realised.report.distortion};
+}
+
+bool Structures::same_labels(const LabelVariant& a, const LabelVariant& b) {
+  return a.frame == b.frame && labelled(a).labelling.label == labelled(b).labelling.label;
+}
+
 // Those that are as good as the first in all that can be said without a map.
 void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   const auto without_map = [&](const LabelVariant& v) {
@@ -167,7 +200,15 @@ void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   };
   const auto last = order.begin() + static_cast<std::ptrdiff_t>(std::min(order.size(), kPipelineTuning.mapped));
   const auto end = std::find_if(order.begin(), last, [&, first = without_map(order.front())](const LabelVariant& v) { return without_map(v) > first; });
-  std::stable_sort(order.begin(), end, [&](const LabelVariant& a, const LabelVariant& b) { return by_map(a) < by_map(b); });
+  // The same labels twice would take the place of others.
+  const auto repeated = [&](auto v) { return std::any_of(order.begin(), v, [&](const LabelVariant& earlier) { return same_labels(earlier, *v); }); };
+  std::vector<std::pair<std::tuple<bool, int, double>, LabelVariant>> ranked;
+  for (auto v = order.begin(); v != end; ++v) {
+    const Rank rank = rank_by_map(*v);
+    ranked.push_back({{rank.fails || repeated(v), magnitude(rank.flipped), rank.distortion}, *v});
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::transform(ranked.begin(), ranked.end(), order.begin(), [](const auto& r) { return r.second; });
 }
 
 bool Structures::doubtful(const StructurePlan& plan) {
@@ -224,10 +265,12 @@ void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std:
     if (e.capture == EdgeCapture::kLost && !out[e.edge]) monitor_.log("label: " + name({1, e.edge}) + " has no feature chart: " + e.reason);
   }
 
-  DeformOptions deform_options;
-  deform_options.merge = merge_distance(size_, model_.diagonal());
-  deform_options.threads = thread_count(options_.threads);
-  RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options, monitor_); });
+  const auto bare = [&]() -> const RealisedMap& {
+    const BareMap& map = bare_map(plan.labels, plan.tet_size);
+    if (map.failure) throw StageFailed(*map.failure);
+    return map.realised;
+  };
+  RealisedMap realised = clock_.stage("deform", [&] { return realise(model_, s.tets, chosen.labelling, s.features, deform_options(), monitor_, bare); });
   s.map = std::move(realised.map);
   s.flipped = realised.report.flipped;
   s.distortion = realised.report.distortion;

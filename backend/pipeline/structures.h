@@ -5,12 +5,12 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <tuple>
 
 #include "blocks/blocks.h"
 #include "core/error.h"
 #include "label/choice.h"
 #include "pipeline/pose.h"
+#include "pipeline/realise.h"
 #include "pipeline/stage_clock.h"
 #include "tet/tet.h"
 
@@ -99,11 +99,25 @@ class Structures {
   LabelChoice& labellings(double tet_size);
   const Labelled& labelled(const LabelVariant& variant, double tet_size = 1);
   void prefer_facing(std::vector<LabelVariant>& order);
-  /// What is wrong with a labelling's map, lower is better.
-  std::tuple<bool, int, double> by_map(const LabelVariant& variant);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
   const Structure& built(const StructurePlan& plan);
+  /// The map of labels without features, or what it failed by.
+  struct BareMap {
+    RealisedMap realised;
+    std::optional<StageFailed> failure;
+  };
+  const BareMap& bare_map(const LabelVariant& variant, double tet_size);
+  /// What a labelling is worth by its map.
+  struct Rank {
+    bool fails = false;
+    int flipped = 0;
+    double distortion = 0;
+    auto operator<=>(const Rank&) const = default;  // NOLINT(modernize-use-nullptr)
+  };
+  Rank rank_by_map(const LabelVariant& variant);
+  bool same_labels(const LabelVariant& a, const LabelVariant& b);
+  DeformOptions deform_options() const;
   void build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made);
 
   const Pose& pose_;
@@ -116,6 +130,7 @@ class Structures {
   const Monitor& monitor_;
   std::map<double, LabelChoice> labellings_;
   std::map<StructurePlan, Structure> structures_;
+  std::map<std::pair<LabelVariant, double>, BareMap> bare_;
   std::set<std::vector<std::vector<int>>> tried_;  // labels and features made
 };
 

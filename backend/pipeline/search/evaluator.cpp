@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -317,6 +318,7 @@ class Evaluator::Work {
       return whole;
     });
     draft.levels = levels_;
+    if (plan.bounded) check_time(plan, cell_count(s.blocks, draft.quantization.value));
     draft.complex = clock_.stage("hex", [&] {
       const std::vector<int>& value = draft.quantization.value;
       Spacing spacing = graded_spacing(s.blocks, s.map, value, options_.growth);
@@ -326,6 +328,15 @@ class Evaluator::Work {
     monitor_.log("hex: " + std::to_string(s.blocks.blocks.size()) + " blocks, " + std::to_string(draft.complex.mesh.hexes.size()) + " hexes");
     draft.options.size = typical_edge(draft.complex.mesh);
     return draft;
+  }
+
+  // Under a time limit, while there is no mesh, a grid that could not be fitted in the plan's time is not begun: there are plans with fewer cells.
+  void check_time(const Plan& plan, double cells) {
+    if (monitor_.deadline() == Monitor::Clock::time_point::max() || own_.gate_seconds_ > 0) return;
+    const std::chrono::duration<double> left = monitor_.deadline() - Monitor::Clock::now();
+    if (kSearchTuning.cell_seconds * cells <= left.count()) return;
+    if (plan.refine == 1) own_.pressed_ = true;
+    throw StageFailed("quantize", "a grid of " + std::to_string(std::lround(cells)) + " cells would take longer than its share of the time");
   }
 
   // Whether local refinement round bores takes far fewer cells than the grid of the whole part.
@@ -404,14 +415,17 @@ class Evaluator::Work {
       association = std::move(routes.association);
       draft.complex = roomy;
     }
+    std::string lost;
+    for (std::size_t i = 0; i < std::min<std::size_t>(association.lost_edges.size(), 8); ++i) lost += " " + name({1, association.lost_edges[i]});
     monitor_.log("pad: " + std::to_string(association.patches.size()) + " patches, " + std::to_string(association.lost_edges.size()) + " edges and " +
-                 std::to_string(association.lost_vertices.size()) + " vertices without mesh");
+                 std::to_string(association.lost_vertices.size()) + " vertices without mesh" + (lost.empty() ? "" : ":" + lost));
     return association;
   }
 
   FitOptions fit_options() const {
     FitOptions result;
     result.threads = own_.threads_;
+    result.hurry = own_.hurry_;
     return result;
   }
 

@@ -31,6 +31,8 @@ class Evaluator {
   MeshResult result(const Outcome& outcome) const;
   /// Seconds that the gate took with the last mesh.
   double gate_seconds() const { return gate_seconds_; }
+  /// Whether a plan had more cells than the time left would have been enough for.
+  bool pressed() const { return pressed_; }
 
  private:
   class Work;
@@ -49,6 +51,7 @@ class Evaluator {
   Structures& structures_;
   std::function<bool()> hurry_;
   double gate_seconds_ = 0;
+  bool pressed_ = false;
   std::vector<BoundedGrid> bounded_grids_;  // of plans done
 };
 

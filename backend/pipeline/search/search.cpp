@@ -171,6 +171,11 @@ std::optional<Schedule::Step> Schedule::next(const std::vector<Attempt>& done, b
   return {};
 }
 
+Monitor::Clock::time_point deadline_of_plan(Monitor::Clock::time_point now, Monitor::Clock::time_point end) {
+  if (end == Monitor::Clock::time_point::max() || now >= end) return end;
+  return now + std::chrono::duration_cast<Monitor::Clock::duration>(kSearchTuning.time_share * std::chrono::duration<double>(end - now));
+}
+
 SearchResult search(const Schedule& schedule, const Budget& budget, const Evaluate& evaluate, const Monitor& monitor, const std::function<bool()>& hurry) {
   std::vector<Attempt> done;
   std::optional<std::size_t> best;

@@ -94,6 +94,9 @@ class Schedule {
 /// True where no other plan is worth trying.
 bool good_enough(const Score& score, int fits_done, const Budget& budget);
 
+/// Until when a plan that begins now may go on while there is no mesh: not to the end, or nothing would be left for those that cost less.
+Monitor::Clock::time_point deadline_of_plan(Monitor::Clock::time_point now, Monitor::Clock::time_point end);
+
 struct SearchResult {
   Outcome best;
   Plan plan;

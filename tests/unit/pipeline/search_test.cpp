@@ -197,6 +197,13 @@ TEST(Search, CancelAloneLeavesIt) {
   EXPECT_THROW(s.run(), Cancelled);
 }
 
+TEST(Search, WithoutAMeshNoPlanMayTakeAllTheTime) {
+  const Monitor::Clock::time_point now{std::chrono::seconds(1000)}, end = now + std::chrono::seconds(100);
+  EXPECT_EQ(deadline_of_plan(now, end), now + std::chrono::seconds(70));
+  EXPECT_EQ(deadline_of_plan(end, end), end);
+  EXPECT_EQ(deadline_of_plan(now, Monitor::Clock::time_point::max()), Monitor::Clock::time_point::max());
+}
+
 TEST(Search, OutOfTimeGivesTheBestSoFar) {
   Search s;
   s.stages.outcomes = {{"a", mesh({1, 0, 0.3, 0.3})}};

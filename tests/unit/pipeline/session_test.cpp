@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "core/error.h"
+#include "pipeline/search/tuning.h"
+#include "pipeline/trial_tuning.h"
 #include "support/shapes.h"
 
 namespace polycube {
@@ -28,6 +32,22 @@ class Sessions : public ::testing::Test {
  protected:
   const CadModel plate_ = CadModel::from_brep(shapes::plate_with_hole(40, 30, 8, 6));
 };
+
+// Under a time limit a grid that would take longer than what is left gives way to the one with fewest cells, which is there in time.
+TEST_F(Sessions, WithoutTimeForManyCellsTheSizeAloneDecides) {
+  const auto plan_of = [&](bool limited) {
+    Monitor monitor;
+    if (limited) monitor.set_deadline(Monitor::Clock::now() + std::chrono::hours(1000));
+    return mesh(plate_, {}, monitor).report.plan;
+  };
+  EXPECT_EQ(plan_of(true), "all CAD edges");
+  set_tuning("search.cell_seconds=1e9");
+  const std::string limited = plan_of(true), unlimited = plan_of(false);
+  set_tuning("search.cell_seconds=3e-4");
+  EXPECT_EQ(limited, "all CAD edges, the size alone");
+  EXPECT_EQ(unlimited, "all CAD edges");
+  EXPECT_EQ(kSearchTuning.cell_seconds, SearchTuning().cell_seconds);
+}
 
 TEST_F(Sessions, MapOnceForAllSizes) {
   Session session(plate_, {});

@@ -44,6 +44,29 @@ TEST(Structures, AreMadeOnceAndEqualLabelsAreRefused) {
   EXPECT_EQ(part.clock.records().front().name, "tet");
 }
 
+// The map without features costs as much as that with them, and is there to tell whose folds are the features'.
+TEST(RealisedMap, WithoutFoldsItNeedsNoneWithoutFeatures) {
+  Part part(shapes::box_with_square(20, 20, 10, 5, 15));
+  const Structure& s = part.structures.structure({});
+  ASSERT_FALSE(s.features.charts.empty());
+  const Labelled& labelled = part.structures.labelled();
+  int asked = 0;
+  const RealisedMap none;
+  const auto bare = [&]() -> const RealisedMap& {
+    ++asked;
+    return none;
+  };
+  Features features = s.features;
+  DeformOptions options;
+  options.merge = merge_distance(part.options.size, part.pose.model.diagonal());
+  const RealisedMap realised = realise(part.pose.model, labelled.mesh, labelled.labelling, features, options, part.monitor, bare);
+  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(realised.map.image, s.map.image);
+  features.charts.clear();
+  realise(part.pose.model, labelled.mesh, labelled.labelling, features, options, part.monitor, bare);
+  EXPECT_EQ(asked, 1);
+}
+
 TEST(Structures, OtherFramesAreTriedOnlyWhereTheUserDoesNotSpeakOfAxes) {
   const std::string bevelled = shapes::chamfered_box(10, 4);
   MeshOptions options;

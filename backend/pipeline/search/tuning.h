@@ -55,10 +55,12 @@ struct SearchTuning {
   /// Below it a mesh is worth less than one that has fewer cells through walls and round circles. Measured: i20 has .07 with three layers, .26 without; parts
   /// that the CAD itself holds down (i22) stay above it.
   double squeezed_scaled_jacobian = 0.1;
+  /// Scaled Jacobian that rings round bores may cost the worst cell. Theory: as much as another order of the same work does.
+  double ring_loss = 0.02;
 
   POLYCUBE_ENTRIES(surrender_rounds, surrender_rings, coarse, finer, room_rounds, count_miss, padded_miss, recounts, rounding_rounds, many_cells, carried,
                    local_share, coarsest, smooth_bend, labellings, best_labellings, finer_grid, other_tets, sharp_bend, good_scaled_jacobian,
-                   poor_scaled_jacobian, squeezed_scaled_jacobian)
+                   poor_scaled_jacobian, squeezed_scaled_jacobian, ring_loss)
 };
 
 inline constexpr const SearchTuning& kSearchTuning = tuning_in_force<SearchTuning>;

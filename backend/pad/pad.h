@@ -11,6 +11,7 @@ struct PaddedMesh {
   HexMesh mesh;
   Association association;
   std::vector<int> fixed_faces{};  ///< CAD faces whose quads stay as they are, ascending: another mesh has them too
+  std::vector<int> origin{};       ///< per hex: one of the grid from which or beside which it came; empty: the grid's hexes come first, none is missing
 };
 
 struct PadReport {

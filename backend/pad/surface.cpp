@@ -397,4 +397,16 @@ LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, Laye
   return count;
 }
 
+bool insert_layer_under(const CadModel& model, PaddedMesh& padded, const std::vector<char>& region) {
+  const TrialMesh whole(model, padded);
+  const auto edges = boundary_edges(padded.mesh, padded.association.quads, whole.topology);
+  const auto angles = dihedral_angles(model, padded.mesh, padded.association, edges);
+  SheetCut cut{std::vector<char>(padded.mesh.hexes.size(), 1), region};
+  if (!extend_cut(padded.mesh, whole.topology, edges, angles, region, cut)) return false;
+  const TrialResult result = try_sheet(whole, cut);
+  if (!result.obstacles.empty() || result.gain + kPadTuning.hex_price * result.added < -kPadTuning.flat) return false;
+  insert_sheet(padded.mesh, padded.association, cut, whole.topology);
+  return true;
+}
+
 }  // namespace polycube

@@ -24,6 +24,10 @@ struct LayerCount {
 /// concave edges; under everything.
 LayerCount insert_surface_layers(const CadModel& model, PaddedMesh& padded, LayerPlan plan, const Monitor& monitor);
 
+/// One layer under the quads that `region` flags, going on straight through the solid from their concave edges, where it costs nothing in angles. False, and
+/// the mesh as it was, where it does or cannot be opened.
+bool insert_layer_under(const CadModel& model, PaddedMesh& padded, const std::vector<char>& region);
+
 /// Carries a surface cut on from its concave edges straight through the solid (at an edge with four hexes through the face opposite) and
 /// says which hexes are inside. `region` flags boundary quads. False if the cut does not separate the mesh.
 bool extend_cut(const HexMesh& mesh, const HexTopology& topology, const std::vector<BoundaryEdge>& edges, const std::vector<double>& angles,

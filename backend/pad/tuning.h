@@ -72,10 +72,35 @@ struct PadTuning {
   double inner_weight = 0.3;
   /// Price of a hex. Guess.
   double hex_price = 0.002;
+  /// Radians, and of the radius: axes and radii of faces of one cylinder differ by less. Guess.
+  double same_axis = 1e-5;
+  /// Radians between neighbouring quads from which a wall does not go all round. Theory: four elements a circle are 90 degrees apart.
+  double widest_gap = 100 * std::numbers::pi / 180;
+  /// Elements round a bore below which it gets no rings. Guess.
+  double least_round = 7.5;
+  /// Radii from a bore straight into the solid to the next boundary: less and they get none. Theory: rings up to 1.4 radii take half of it.
+  double bore_room = 0.8;
+  /// Rows of cells along a bore for it to get rings. Measured: i09 has bores of one row, whose rings counted as walls of one cell.
+  double bore_rows = 1.5;
+  /// Radii that the rings of a bore are thick, of cells about as long as wide, two at least. Theory: the stress beside a hole falls to half by 1.4 radii.
+  double ring_share = 0.4;
+  /// Layers round the square inside a cylinder, of the cells along its side. Theory: evenly spread, the square's sides then are at .55 of the radius.
+  double core_share = 0.4;
+  /// Radii of the bore up to which a tube gets as many cells outside as inside. Theory: up to 1.7 times as long.
+  double thick_tube = 1.7;
+  /// Elements round the bore of such a tube at least. Theory: as many as a circle gets.
+  double radial_round = 11.5;
+  /// Of the boundary that a layer lies under: the least that belongs to the wall for which it is divided. Guess.
+  double own_share = 0.5;
+  /// Cells beyond the rings of a bore that are spread with them. Guess.
+  int spread_depth = 3;
+  /// Rounds of spreading. Guess.
+  int spread_rounds = 60;
 
   POLYCUBE_ENTRIES(hopeless, reach, same_place, spoke_price, astray_blame, surplus_price, rounds, patience, widest_end, concave, bad_edge, small_price,
                    quad_price, band_repairs, widest, sunk, flat_inside, cusp, one_cell, room_width, bad_sector, flat, straight_angle, least_gain, straight,
-                   sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price)
+                   sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price, same_axis, widest_gap, least_round, bore_room, bore_rows, ring_share,
+                   core_share, thick_tube, radial_round, own_share, spread_depth, spread_rounds)
 };
 
 inline constexpr const PadTuning& kPadTuning = tuning_in_force<PadTuning>;

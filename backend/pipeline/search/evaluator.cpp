@@ -15,6 +15,7 @@
 #include "fit/fit.h"
 #include "hex/hex.h"
 #include "pad/associate.h"
+#include "pad/concentric.h"
 #include "pad/pad.h"
 #include "pipeline/block_ids.h"
 #include "pipeline/bounds.h"
@@ -134,7 +135,8 @@ class Evaluator::Work {
       const Association association = gridded(plan, options_.divisions, draft);
       std::vector<PaddedMesh> choices =
           clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, nullptr, {}, own_.threads_); });
-      const PaddedMesh& chosen = choices[promising(choices)];
+      PaddedMesh& chosen = choices[promising(choices)];
+      lay_rings(chosen, draft);
       const auto padded = static_cast<int>(count_refined(chosen.mesh, chosen.association, places_of(draft, chosen.association), kAllLevels, monitor_));
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
       if (round > 0 && miss(padded) >= miss(cells)) break;
@@ -444,6 +446,63 @@ class Evaluator::Work {
     return clock_.stage("fit", [&] { return most_promising(model_, candidates_of(choices), fit_options(), monitor_); });
   }
 
+  // Rings alone take cells from the outside of a tube, of which nothing may be asked then.
+  bool may_be_radial() const { return options_.divisions.empty() && options_.sizes.empty() && options_.max_size <= 0; }
+
+  // Rings round bores and in cylinders, where they take none of the divisions that are asked for.
+  bool lay_rings(PaddedMesh& mesh, const Draft& draft) const {
+    if (options_.coarsest) return false;
+    RingOptions options{draft.complex.mesh.hexes.size(), may_be_radial(), {}};
+    for (const auto& [edge, levels] : draft.levels) options.left_edges.push_back(edge);  // local refinement rings these
+    return clock_.stage("pad", [&] {
+      PaddedMesh ringed = mesh;
+      if (insert_concentric(model_, ringed, options, monitor_) == 0) return false;
+      const auto unmet = [&](const PaddedMesh& m) { return unmet_divisions(m.mesh, m.association, options_.divisions).size(); };
+      if (unmet(ringed) > unmet(mesh)) return false;
+      mesh = std::move(ringed);
+      return true;
+    });
+  }
+
+  // The most promising with rings round bores if there are any and its cells are good with them, else the best of all without.
+  FitChoice ring_and_fit(std::vector<PaddedMesh>& choices, const Draft& draft, bool& ringed) {
+    const auto fit_all = [&](std::vector<PaddedMesh>& meshes) {
+      const auto good = [&](std::size_t i, const FitReport& r) {
+        return r.inverted == 0 && (good_cells(score_of(model_, r.min_scaled_jacobian, meshes[i])) || own_.hurry_());
+      };
+      const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates_of(meshes), fit_options(), fits_left_, good, monitor_); });
+      fits_left_ -= best.fitted;
+      return best;
+    };
+    const auto with_rings = [&](const PaddedMesh& mesh) {
+      PaddedMesh result = mesh;
+      ringed = lay_rings(result, draft);
+      return result;
+    };
+    std::vector<PaddedMesh> rings{with_rings(choices[0])};
+    if (!ringed) return fit_all(choices);
+    std::size_t first = 0;
+    if (choices.size() > 1) {
+      std::vector<PaddedMesh> moved = choices;  // by the look at what comes of each
+      first = clock_.stage("fit", [&] { return most_promising(model_, candidates_of(moved), fit_options(), monitor_); });
+      if (first > 0) rings[0] = with_rings(choices[first]);
+    }
+    FitChoice best = fit_all(rings);
+    const double enough = fit_options().target_scaled_jacobian - kSearchTuning.ring_loss;
+    const bool good = best.report.inverted == 0 && (best.report.min_scaled_jacobian >= enough || at_cad_bound(model_, rings[0].mesh, rings[0].association));
+    if (!good && fits_left_ > 0) {
+      const FitChoice other = fit_all(choices);
+      if (other.report.inverted < best.report.inverted ||
+          (other.report.inverted == best.report.inverted && other.report.min_scaled_jacobian > best.report.min_scaled_jacobian + kSearchTuning.ring_loss)) {
+        ringed = false;
+        return other;
+      }
+    }
+    choices[first] = std::move(rings[0]);
+    best.index = first;
+    return best;
+  }
+
   // Pads by the plan that the draft chose before, or by the best of all.
   void pad_and_fit(Draft& draft, const Association& association) {
     std::vector<PadReport> pad_reports;
@@ -455,17 +514,13 @@ class Evaluator::Work {
       pad_reports = {pad_reports[index]};
     }
     if (fits_left_ <= 0) throw StageFailed("fit", "cells stay inverted after " + std::to_string(fits_) + " attempts");
-    const std::vector<FitCandidate> candidates = candidates_of(choices);
-    const auto good = [&](std::size_t i, const FitReport& r) {
-      return r.inverted == 0 && (good_cells(score_of(model_, r.min_scaled_jacobian, choices[i])) || own_.hurry_());
-    };
-    const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates, fit_options(), fits_left_, good, monitor_); });
+    bool ringed = false;
+    FitChoice best = ring_and_fit(choices, draft, ringed);
     const std::size_t chosen = best.index;
-    fits_left_ -= best.fitted;
     draft.fitted = best.report;
-    draft.padded_hexes = pad_reports[chosen].added_hexes;
-    monitor_.log("pad: " + std::to_string(draft.padded_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) + " rings, choice " +
-                 std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
+    draft.padded_hexes = static_cast<int>(choices[chosen].mesh.hexes.size() - draft.complex.mesh.hexes.size());
+    monitor_.log("pad: " + std::to_string(draft.padded_hexes) + " hexes added, " + std::to_string(pad_reports[chosen].rings) + " rings at borders, " +
+                 (ringed ? "" : "none ") + "round bores and in cylinders, choice " + std::to_string(chosen + 1) + " of " + std::to_string(choices.size()));
     monitor_.log("fit: min SJ " + std::to_string(draft.fitted.min_scaled_jacobian) + ", mean " + std::to_string(draft.fitted.mean_scaled_jacobian) + ", " +
                  std::to_string(draft.fitted.inverted) + " inverted");
     if (draft.choice < 0) draft.choice = static_cast<int>(chosen);
@@ -547,7 +602,13 @@ MeshResult Evaluator::result(const Outcome& outcome) const {
   result.association = draft.padded.association;
   std::vector<int> blocks = draft.complex.hex_block;
   if (options_.coarsest) std::iota(blocks.begin(), blocks.end(), 0);
-  result.hex_block = carry_blocks(draft.before_refining().mesh, std::move(blocks));
+  const PaddedMesh& padded = draft.before_refining();
+  if (!padded.origin.empty()) {
+    std::vector<int> kept;
+    for (const int origin : padded.origin) kept.push_back(blocks[origin]);
+    blocks = std::move(kept);
+  }
+  result.hex_block = carry_blocks(padded.mesh, std::move(blocks));
   if (!draft.parent.empty()) {
     std::vector<int> of_parts;
     for (const int parent : draft.parent) of_parts.push_back(result.hex_block[parent]);

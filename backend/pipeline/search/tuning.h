@@ -61,10 +61,12 @@ struct SearchTuning {
   /// Of the time left: what a plan may take while there is no mesh. Theory: three plans one after the other get .7, .21 and .06 of it; the first is the one
   /// that is wanted, those after it are cheaper.
   double time_share = 0.7;
+  /// Scaled Jacobian that rings round bores may cost the worst cell. Theory: as much as another order of the same work does.
+  double ring_loss = 0.02;
 
   POLYCUBE_ENTRIES(surrender_rounds, surrender_rings, coarse, finer, room_rounds, count_miss, padded_miss, recounts, rounding_rounds, many_cells, carried,
                    local_share, coarsest, smooth_bend, labellings, best_labellings, finer_grid, other_tets, sharp_bend, good_scaled_jacobian,
-                   poor_scaled_jacobian, squeezed_scaled_jacobian, cell_seconds, time_share)
+                   poor_scaled_jacobian, squeezed_scaled_jacobian, cell_seconds, time_share, ring_loss)
 };
 
 inline constexpr const SearchTuning& kSearchTuning = tuning_in_force<SearchTuning>;

@@ -1,0 +1,22 @@
+// Rings of hexahedra round bores and under the sides of solid cylinders, as an engineer draws them.
+#pragma once
+
+#include <vector>
+
+#include "core/monitor.h"
+#include "pad/pad.h"
+
+namespace polycube {
+
+struct RingOptions {
+  std::size_t grid_cells = 0;     ///< the first hexes of the mesh, which are the grid's
+  bool radial = true;             ///< tubes may get rings alone, from the bore to the outside, with fewer cells round the outside
+  std::vector<int> left_edges{};  ///< CAD edges, ascending, of bores that get none
+};
+
+/// Lays rings round every bore that has room for them, and divides the layer under the side of every solid cylinder so that the square of cells inside spans
+/// about half of it. Where none of it can be done the mesh stays as it is. New nodes and those about them are spread evenly across the axis. The number of
+/// bores and cylinders that got rings.
+int insert_concentric(const CadModel& model, PaddedMesh& padded, const RingOptions& options, const Monitor& monitor);
+
+}  // namespace polycube

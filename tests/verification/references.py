@@ -1,7 +1,7 @@
 """Reference values of cases without a closed form, on one block of C3D20R (with temperatures C3D20) mapped by hand, finer and finer; inside FreeCAD.
 
 See `run` in this folder, --references. For each mesh the value by CalculiX's own stresses and by the recovered ones, and what each tends to by
-Richardson's extrapolation: the rates are 2 and 4 (tests/verification.md), and it is given where the last step is a smaller one in the same direction.
+Richardson's extrapolation with the rate that the three values show.
 POLYCUBE_REFERENCES names the cases, a JSON list; all if it is empty.
 """
 
@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Callable
 
 import numpy as np
+import scipy.optimize
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import frd  # noqa: E402
@@ -21,8 +22,6 @@ import frd  # noqa: E402
 from freecad.polycube import ccx, recovery, serendipity, symmetry  # noqa: E402
 
 YOUNG, POISSON, EXPANSION = 210000.0, 0.3, 2.3e-4
-#: rates of the stresses that CalculiX extrapolates, and of recovered ones
-RATES = {"CalculiX": 2, "recovered": 4}
 
 
 @dataclass
@@ -73,7 +72,7 @@ def around_axis(u, v, w):
 BLOCKS = {
     "hole": Block(around_hole, (12, 16, 1), (2, 3, 4), (0, 1), 0.5, lambda x, y, z: np.hypot(x, y - 10), 0),
     "LE1": Block(between_ellipses, (8, 12, 2), (1, 2, 3), (0,), 1, lambda x, y, z: np.hypot(x - 2000, y), 1),
-    "LE11": Block(around_axis, (4, 5, 12), (1.5, 2, 2.5), (0, 1), 0, lambda x, y, z: np.hypot(np.hypot(x, y) - 1000, z), 2, True),
+    "LE11": Block(around_axis, (4, 5, 12), (3, 4, 5), (0, 1), 0, lambda x, y, z: np.hypot(np.hypot(x, y) - 1000, z), 2, True),
 }
 
 
@@ -109,7 +108,7 @@ def deck(block, uvw, points, cells):
 
 
 def values(block, refinement):
-    """(number of nodes, {name in RATES: value})."""
+    """(number of nodes, {"CalculiX" or "recovered": value})."""
     uvw, cells = grid([count if count == 1 else round(count * refinement) for count in block.cells])
     points = np.stack(block.place(*uvw.T), axis=1)
     with tempfile.TemporaryDirectory(prefix="polycube-references-") as folder:
@@ -128,21 +127,30 @@ def values(block, refinement):
     return len(points), {name: stress[there, block.component].mean() for name, stress in (("CalculiX", own), ("recovered", better))}
 
 
-def limit(refinements, found, rate):
-    """Richardson's extrapolation of three values; None where they do not settle."""
-    before, last = found[1] - found[0], found[2] - found[1]
-    return found[2] + last / ((refinements[2] / refinements[1]) ** rate - 1) if 0 < last / before < 1 else None
+def limit(refinements, found):
+    """(observed rate, Richardson's extrapolation by it) of three values; None where they do not settle."""
+    ratio = (found[1] - found[0]) / (found[2] - found[1])
+
+    def miss(rate):
+        first, second, third = (refinement**-rate for refinement in refinements)
+        return (first - second) / (second - third) - ratio
+
+    slowest, fastest = 0.5, 8.0
+    if miss(slowest) * miss(fastest) >= 0:
+        return None
+    rate = scipy.optimize.brentq(miss, slowest, fastest)
+    return rate, found[2] + (found[2] - found[1]) / ((refinements[2] / refinements[1]) ** rate - 1)
 
 
 def table(names):
-    yield "| case | nodes | stresses | values, MPa | tends to |"
-    yield "|---|---|---|---|---|"
+    yield "| case | nodes | stresses | values, MPa | rate | tends to |"
+    yield "|---|---|---|---|---|---|"
     for case in names or BLOCKS:
         runs = [values(BLOCKS[case], refinement) for refinement in BLOCKS[case].refinements]
-        for name, rate in RATES.items():
-            end = limit(BLOCKS[case].refinements, [found[name] for _, found in runs], rate)
+        for name in runs[0][1]:
+            end = limit(BLOCKS[case].refinements, [found[name] for _, found in runs])
             nodes, found = (" ".join(texts) for texts in ((str(count) for count, _ in runs), ("{:.4f}".format(value[name]) for _, value in runs)))
-            yield "| {} | {} | {} | {} | {} |".format(case, nodes, name, found, "" if end is None else "{:.3f}".format(end))
+            yield "| {} | {} | {} | {} | {} |".format(case, nodes, name, found, "{:.1f} | {:.3f}".format(*end) if end else " | ")
 
 
 if "POLYCUBE_REFERENCES" in os.environ:

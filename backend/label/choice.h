@@ -47,8 +47,8 @@ class LabelChoice {
   /// with fewest faults and lost features come first, of equals those nearest to the normals; those with the same labels as one before come last.
   const std::vector<LabelVariant>& order();
   const Labelled& labelled(const LabelVariant& variant);
-  /// Those in which no region may stand square to its label's axis: for a map that folds where some do.
-  std::vector<LabelVariant> facing() const;
+  /// Those in which no region may stand square to its label's axis: for a map that folds where some do. First those that treat bent faces as `like` does.
+  std::vector<LabelVariant> facing(const LabelVariant& like) const;
 
  private:
   const CadModel& model_;

@@ -139,9 +139,13 @@ const Labelled& LabelChoice::labelled(const LabelVariant& variant) {
   return made_.back();
 }
 
-std::vector<LabelVariant> LabelChoice::facing() const {
+std::vector<LabelVariant> LabelChoice::facing(const LabelVariant& like) const {
   std::vector<LabelVariant> list{{.facing = true}, {.facing = true, .gradual = false}, {.facing = true, .strictness = kLabelTuning.strict}};
   for (int f = 1; f < std::ssize(frames_); ++f) list.push_back({.frame = f, .facing = true});
+  if (like.widest_bend == LabelVariant{}.widest_bend) return list;
+  std::vector<LabelVariant> alike = list;
+  for (LabelVariant& v : alike) v.widest_bend = like.widest_bend;
+  list.insert(list.begin(), alike.begin(), alike.end());
   return list;
 }
 

@@ -55,8 +55,8 @@ class LabelChoice {
   const std::optional<LabelVariant>& along_bend();
   /// What LabelVariant::frame counts; for the same variants on another mesh of the part.
   const std::vector<Mat3>& frames() const { return frames_; }
-  /// Those in which no region may stand square to its label's axis: for a map that folds where some do.
-  std::vector<LabelVariant> facing() const;
+  /// Those in which no region may stand square to its label's axis: for a map that folds where some do. First those that treat bent faces as `like` does.
+  std::vector<LabelVariant> facing(const LabelVariant& like) const;
 
  private:
   void look_along_bend();

@@ -16,6 +16,9 @@
 namespace polycube {
 namespace {
 
+// What a plan fails by that was cut short.
+const std::string kNoTime = "its share of the time was over";
+
 MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures& structures, StageClock& clock, Monitor& searching, const Monitor& monitor) {
   const auto begun = Monitor::Clock::now();
   const auto hurry = [&, begun] {
@@ -33,7 +36,7 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
       outcome = evaluator.evaluate(plan, from, fits);
     } catch (const OutOfTime&) {
       if (mesh || Monitor::Clock::now() >= monitor.deadline()) throw;
-      outcome.failure = Failure{StageFailed("fit", "its share of the time was over"), {}};
+      outcome.failure = Failure{StageFailed("fit", kNoTime), {}};
     }
     if (outcome.score && monitor.deadline() != Monitor::Clock::time_point::max()) {
       mesh = true;
@@ -43,7 +46,14 @@ MeshResult search_mesh(const Pose& pose, const MeshOptions& options, Structures&
     return outcome;
   };
   const Schedule schedule(keeping_plans(options, evaluator.label_order()), last_plans(), budget);
-  const SearchResult found = search(schedule, budget, evaluate, searching, [&] { return hurry() || evaluator.pressed(); });
+  const SearchResult found = [&] {
+    try {
+      return search(schedule, budget, evaluate, searching, [&] { return hurry() || evaluator.pressed(); });
+    } catch (const StageFailed& e) {
+      if (e.what() == kNoTime) throw OutOfTime("out of time");
+      throw;
+    }
+  }();
   MeshResult result = evaluator.result(found.best);
   result.report.plan = found.plan.name;
   result.report.plans_tried = found.tried;

@@ -127,7 +127,7 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   const Labelled& first = labelled(order.front());
   if (first.report.folded_parts == 0) return;
   std::vector<LabelVariant> more;
-  for (const LabelVariant& v : labellings(1).facing()) {
+  for (const LabelVariant& v : labellings(1).facing(order.front())) {
     const Labelled& l = labelled(v);
     const auto is_the_same = [&](const LabelVariant& other) { return same_labels(v, other); };
     if (l.faults <= first.faults && l.report.folded_parts <= first.report.folded_parts && std::none_of(more.begin(), more.end(), is_the_same))
@@ -138,11 +138,11 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   more.insert(more.begin(), order.front());
   more.resize(std::min(more.size(), kPipelineTuning.mapped));
   std::stable_sort(more.begin(), more.end(), [&](const LabelVariant& x, const LabelVariant& y) { return rank_by_map(x) < rank_by_map(y); });
-  // A few flips more are worth fewer such regions.
+  // Some flips more are worth fewer such regions.
   const Rank least = rank_by_map(more.front());
   const auto end = std::find_if(more.begin(), more.end(), [&](const LabelVariant& v) {
     const Rank rank = rank_by_map(v);
-    return rank.fails || rank.flipped > least.flipped + std::max(kPipelineTuning.few_folds, least.flipped / 2);
+    return rank.fails || rank.flipped > kPipelineTuning.facing_folds * least.flipped + kPipelineTuning.few_folds;
   });
   std::stable_sort(more.begin(), end,
                    [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_parts < labelled(y).report.folded_parts; });

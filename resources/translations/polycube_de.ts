@@ -1008,6 +1008,10 @@
       <translation>Zellen bleiben umgestülpt nach {} Versuchen</translation>
     </message>
     <message>
+      <source>a grid of {} cells would take longer than its share of the time</source>
+      <translation>ein Gitter von {} Zellen würde länger dauern als sein Teil der Zeit</translation>
+    </message>
+    <message>
       <source>cells stay flat</source>
       <translation>Zellen bleiben flach</translation>
     </message>

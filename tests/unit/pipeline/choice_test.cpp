@@ -59,5 +59,23 @@ TEST(LabelChoice, OffersWhatTheShapeGivesAChoiceOf) {
   EXPECT_EQ(count(rounded.choice(), chamfers), 0);
 }
 
+TEST(LabelChoice, FacingLabelsTreatBentFacesAsTheFirstDoes) {
+  const Part rounded(shapes::filleted_box(10, 2));
+  const LabelVariant narrow, wide{.widest_bend = 1};
+  const auto bends = [&](const LabelVariant& like) {
+    std::vector<double> result;
+    for (const LabelVariant& v : rounded.choice().facing(like)) {
+      EXPECT_TRUE(v.facing);
+      result.push_back(v.widest_bend);
+    }
+    return result;
+  };
+  const std::vector<double> alike = bends(narrow), both = bends(wide);
+  EXPECT_EQ(alike, std::vector<double>(alike.size(), narrow.widest_bend));
+  std::vector<double> wanted(alike.size(), wide.widest_bend);
+  wanted.insert(wanted.end(), alike.begin(), alike.end());
+  EXPECT_EQ(both, wanted);
+}
+
 }  // namespace
 }  // namespace polycube

@@ -207,6 +207,7 @@ MESSAGES = noop(
         "{} cells stay inverted",
         "cells stay inverted, and no CAD edge is left to give up there",
         "cells stay inverted after {} attempts",
+        "a grid of {} cells would take longer than its share of the time",
         "cells stay flat",
         "cells without positive Jacobian",
         "cells lose their volume on the way back to the part's place",

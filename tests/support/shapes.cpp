@@ -118,6 +118,18 @@ TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
 
 std::string box(double x, double y, double z) { return text(block({0, 0, 0}, {x, y, z})); }
 std::string cylinder(double radius, double height) { return text(BRepPrimAPI_MakeCylinder(radius, height).Solid()); }
+std::string divided_rim(double radius, double height, double gap) {
+  const double angle = gap / radius;
+  TopTools_ListOfShape part, vertex;
+  part.Append(BRepPrimAPI_MakeCylinder(radius, height).Shape());
+  vertex.Append(BRepBuilderAPI_MakeVertex(gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), height)).Shape());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(part);
+  splitter.SetTools(vertex);
+  splitter.Build();
+  return text(TopExp_Explorer(splitter.Shape(), TopAbs_SOLID).Current());
+}
+
 std::string cone(double radius, double top_radius, double height) { return text(BRepPrimAPI_MakeCone(radius, top_radius, height).Solid()); }
 std::string sphere(double radius) { return text(BRepPrimAPI_MakeSphere(radius).Solid()); }
 std::string torus(double major, double minor) { return text(BRepPrimAPI_MakeTorus(major, minor).Solid()); }

@@ -10,6 +10,7 @@ namespace polycube::shapes {
 
 std::string box(double x, double y, double z);                             ///< a corner at the origin
 std::string cylinder(double radius, double height);                        ///< about +Z from the origin
+std::string divided_rim(double radius, double height, double gap);         ///< the cylinder, a second vertex on its upper rim so far from the seam
 std::string cone(double radius, double top_radius, double height);         ///< top_radius 0: with its tip
 std::string sphere(double radius);                                         ///< centre at the origin
 std::string torus(double major, double minor);                             ///< about +Z, centre at the origin

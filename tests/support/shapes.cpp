@@ -269,6 +269,13 @@ std::string forked_bar(double radius, double arm) {
   return text(solid(BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 1}), arm, 3.3 * radius).Shape()).Shape()));
 }
 
+std::string bored_web(double radius, double degrees) {
+  const double half = radius * std::cos(degrees * std::numbers::pi / 180), wall = 1.6 * radius;
+  const TopoDS_Shape plate = block({-wall, -2 * wall, 0}, {wall, 2 * wall, 2.7 * radius}), slot = block({-half, -wall, 0}, {half, wall, 1.6 * radius});
+  const TopoDS_Shape bore = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0.15 * radius}, {0, 0, 1}), radius, 3 * radius).Shape();
+  return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(plate, slot).Shape(), bore).Shape()));
+}
+
 std::string claws(double radius, double degrees) {
   const double disc = 0.35 * radius, gap = (90 - degrees) * std::numbers::pi / 180;
   const auto above = [&](double r, double from, double angle) {

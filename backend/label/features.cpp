@@ -200,6 +200,23 @@ bool is_end(const CadModel& model, int edge, int vertex) {
   return vertex == model.edge(edge).vertices[0] || (model.vertex(vertex) - model.edge_point(edge, model.edge_range(edge)[0])).norm() <= 1e-5 * model.diagonal();
 }
 
+// A chain that begins and ends at one vertex, though not at one node: goes back to its start along the tiny edges that make one vertex of two. `beside`: the
+// nodes next to each on tiny edges.
+void close_by_tiny_edges(std::vector<int>& chain, const std::map<int, std::vector<int>>& beside) {
+  const int start = chain.front(), end = chain.back();
+  std::map<int, int> back{{start, start}};
+  std::vector<int> queue{start};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    const auto found = beside.find(queue[i]);
+    if (found == beside.end()) continue;
+    for (const int n : found->second) {
+      if (back.try_emplace(n, queue[i]).second) queue.push_back(n);
+    }
+  }
+  if (!back.contains(end)) return;
+  for (int n = end; n != start; chain.push_back(n)) n = back[n];
+}
+
 }  // namespace
 
 std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& mesh) {
@@ -208,6 +225,13 @@ std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& 
     const auto [a, b] = mesh.segments[i];
     next[mesh.segment_edge[i]][a].push_back(b);
     next[mesh.segment_edge[i]][b].push_back(a);
+  }
+  std::map<int, std::vector<int>> beside_tiny;
+  for (std::size_t i = 0; i < mesh.segments.size(); ++i) {
+    const auto [a, b] = mesh.segments[i];
+    if (!model.edge(mesh.segment_edge[i]).tiny) continue;
+    beside_tiny[a].push_back(b);
+    beside_tiny[b].push_back(a);
   }
   std::vector<std::vector<int>> chains(model.edge_count() + 1);
   for (const int e : model.edges()) {
@@ -228,6 +252,7 @@ std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& 
       at = to;
       chain.push_back(at);
     } while (at != start && next[e][at].size() > 1);
+    if (!model.edge(e).tiny && model.edge(e).vertices[0] == model.edge(e).vertices[1] && at != start) close_by_tiny_edges(chain, beside_tiny);
   }
   return chains;
 }

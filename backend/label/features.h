@@ -29,7 +29,8 @@ struct Features {
   std::vector<FeatureEdge> edges;  ///< one per CAD edge that is neither seam nor degenerate
 };
 
-/// The mesh points along a CAD edge from its start to its end vertex, ordered; empty where the mesh has no segments there.
+/// The mesh points along a CAD edge from its start to its end vertex, ordered; empty where the mesh has no segments there. First and last are the
+/// same of a closed edge, and of one that a tiny edge closes.
 std::vector<std::vector<int>> edge_chains(const CadModel& model, const TetMesh& mesh);
 
 /// How far the faces beside a CAD edge are from smooth at most, radians.

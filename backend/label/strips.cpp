@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "core/charts.h"
 #include "label/graph_cut.h"
@@ -86,6 +87,52 @@ double gap_side(const CadModel& model, int face, int edge) {
   return 0;
 }
 
+// Where the label at `angle` ends towards `side`; none within a right angle.
+std::optional<double> line_beyond(const Barrel& barrel, double angle, double side) {
+  const int label = barrel.label(angle).first;
+  double near = angle, far = angle;
+  while (barrel.label(far).first == label) {
+    near = far;
+    far += side * kDegree;
+    if (std::abs(far - angle) > std::numbers::pi / 2) return std::nullopt;
+  }
+  for (int i = 0; i < kLabelTuning.bisections; ++i) {
+    const double middle = (near + far) / 2;
+    (barrel.label(middle).first == label ? near : far) = middle;
+  }
+  return (near + far) / 2;
+}
+
+// A face across the barrel that an arc of it and one other edge bound has two corners, and needs four: where the arc has one label both of its ends take the
+// next ones.
+std::vector<Strip> strips_of_segment(const CadModel& model, const Barrel& barrel, int face, int segment) {
+  int chord = 0, others = 0;
+  std::vector<double> arc;
+  for (const int e : model.face(segment).edges) {
+    const CadEdge& edge = model.edge(e);
+    if (edge.faces[0] == face || edge.faces[1] == face) {
+      const std::vector<double> angles = course(model, barrel, e);
+      arc.insert(arc.end(), angles.begin(), angles.end());
+    } else {
+      chord = e;
+      ++others;
+    }
+  }
+  if (others != 1 || arc.empty()) return {};
+  const auto& [from, to] = model.edge(chord).vertices;
+  const double middle = barrel.angle((model.vertex(from) + model.vertex(to)) / 2);
+  double half = 0;
+  for (const double a : arc) half = std::max(half, std::abs(std::remainder(a - middle, 2 * std::numbers::pi)));
+  if (half < kLabelTuning.least_segment || half > std::numbers::pi / 4) return {};
+  std::vector<Strip> strips;
+  for (const double side : {1.0, -1.0}) {
+    const double end = middle + side * half;
+    const auto line = barrel.label(end).first == barrel.label(middle).first ? line_beyond(barrel, end, side) : std::nullopt;
+    if (line) strips.push_back({face, {barrel.direction(*line), barrel.direction(middle + side * half / 2)}, barrel.label(*line + side * kDegree).first});
+  }
+  return strips;
+}
+
 // Is the direction in the strip?
 bool within(const Strip& s, const Vec3& arm) {
   return s.generator[0].cross(arm).dot(arm.cross(s.generator[1])) > 0 && arm.dot(s.generator[0] + s.generator[1]) > 0;
@@ -106,6 +153,7 @@ std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int fac
   const double room =
       radius > 0 ? std::clamp(kLabelTuning.room_triangles * size / radius, kLabelTuning.least_room, kLabelTuning.most_room) : kLabelTuning.least_room;
   std::vector<Strip> strips;
+  std::set<int> beside;
   std::map<std::pair<int, double>, int> ends;  // (vertex, side) -> edges that are furthest on that side there
   const auto add = [&](double angle, double side) {
     if (const auto strip = strip_beside(barrel, face, angle, side, room)) strips.push_back(*strip);
@@ -113,6 +161,10 @@ std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int fac
   for (int e : model.face(face).edges) {
     const CadEdge& edge = model.edge(e);
     if (edge.seam || edge.degenerate) continue;
+    const int other = edge.faces[edge.faces[0] == face ? 1 : 0];
+    if (model.face(other).kind == SurfaceKind::kPlane && beside.insert(other).second) {
+      for (const Strip& s : strips_of_segment(model, barrel, face, other)) strips.push_back(s);
+    }
     const std::vector<double> angles = course(model, barrel, e);
     const auto [least, most] = std::minmax_element(angles.begin(), angles.end());
     if (*most - *least < kLabelTuning.straight) {

@@ -17,7 +17,8 @@ struct Strip {
 
 /// The strips of a cylinder or cone: one for each place where edges of the face turn back round its axis (the widest place of an arm or a bore of not much
 /// less than the barrel's own radius), two for each vertex close to the line, one in the gap beside the side of a claw, an edge along a generator near the line
-/// that the barrel goes round at its end. `frame` rows are the axes, `size` is the length of a triangle's side.
+/// that the barrel goes round at its end; two at the ends of an arc that with one other edge bounds a plane, and is too short to have more labels than one: a
+/// chart has four corners. `frame` rows are the axes, `size` is the length of a triangle's side.
 std::vector<Strip> find_strips(const CadModel& model, const Mat3& frame, int face, double size);
 
 /// The strips of a part.

@@ -117,6 +117,8 @@ struct LabelTuning {
   double beyond = 30 * (std::numbers::pi / 180);
   /// Radians: an edge that spans less runs along the barrel. Guess.
   double straight = 5 * (std::numbers::pi / 180);
+  /// Radians, 20 degrees: the half of an arc round a barrel that with one other edge bounds a face, from which on its ends take other labels. Guess.
+  double least_segment = std::numbers::pi / 9;
   /// Radians from an edge along a barrel: whether the barrel is there tells on which side of the edge it lies. Guess.
   double beside = 0.01;
   /// Of the way there: a point nearer to the barrel is on it. Guess.
@@ -136,8 +138,8 @@ struct LabelTuning {
                    first_strictness, least_share, least_turn, bent_shares, bent_ends, steep, real_share, least_facing, fold_score, sliver, least_gap,
                    near_generators, across, fillets_whole, strict, lost_feature, compactness, turn_price, level, same_frame, bisected, off_plane, bent_corners,
                    towards, against, level_cosine, off_vertex, aside, max_moves, snap, thinnest, bend_length, bend_edges, stray, stray_triangles, stray_share,
-                   stray_area, room_triangles, least_room, most_room, close, beyond, straight, beside, on_barrel, line_step, bisections, samples, widest_bend,
-                   strictness)
+                   stray_area, room_triangles, least_room, most_room, close, beyond, straight, least_segment, beside, on_barrel, line_step, bisections, samples,
+                   widest_bend, strictness)
 };
 
 inline constexpr const LabelTuning& kLabelTuning = tuning_in_force<LabelTuning>;

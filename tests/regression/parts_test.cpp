@@ -36,6 +36,8 @@ std::vector<Part> parts() {
           {"filleted box", shapes::filleted_box(10, 2), 0.5},
           {"half cylinder", shapes::half_cylinder(6, 10), 0.3},
           {"half lens", shapes::half_lens(40, 15), 0.3},
+          {"rim divided by a point", shapes::divided_rim(5, 12, 5e-5), 0.5},
+          {"bored web", shapes::bored_web(8, 32), 0.3},
           {"claws", shapes::claws(20, 43), 0.4},
           {"ribbed cup", shapes::ribbed_cup(20), 0.4},
           {"turned L bracket", shapes::moved(shapes::l_bracket(20, 5, 15), 33, 100, -50, 7), 0.9}};

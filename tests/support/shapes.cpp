@@ -118,6 +118,18 @@ TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
 
 std::string box(double x, double y, double z) { return text(block({0, 0, 0}, {x, y, z})); }
 std::string cylinder(double radius, double height) { return text(BRepPrimAPI_MakeCylinder(radius, height).Solid()); }
+std::string divided_rim(double radius, double height, double gap) {
+  const double angle = gap / radius;
+  TopTools_ListOfShape part, vertex;
+  part.Append(BRepPrimAPI_MakeCylinder(radius, height).Shape());
+  vertex.Append(BRepBuilderAPI_MakeVertex(gp_Pnt(radius * std::cos(angle), radius * std::sin(angle), height)).Shape());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(part);
+  splitter.SetTools(vertex);
+  splitter.Build();
+  return text(TopExp_Explorer(splitter.Shape(), TopAbs_SOLID).Current());
+}
+
 std::string cone(double radius, double top_radius, double height) { return text(BRepPrimAPI_MakeCone(radius, top_radius, height).Solid()); }
 std::string sphere(double radius) { return text(BRepPrimAPI_MakeSphere(radius).Solid()); }
 std::string torus(double major, double minor) { return text(BRepPrimAPI_MakeTorus(major, minor).Solid()); }
@@ -264,6 +276,13 @@ std::string wedge_ring(double radius, double depth, double height) {
 std::string forked_bar(double radius, double arm) {
   const TopoDS_Shape bar = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, -2.5 * radius}, {0, 0, 1}), radius, 5 * radius).Shape();
   return text(solid(BRepAlgoAPI_Fuse(bar, BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0}, {1, 0, 1}), arm, 3.3 * radius).Shape()).Shape()));
+}
+
+std::string bored_web(double radius, double degrees) {
+  const double half = radius * std::cos(degrees * std::numbers::pi / 180), wall = 1.6 * radius;
+  const TopoDS_Shape plate = block({-wall, -2 * wall, 0}, {wall, 2 * wall, 2.7 * radius}), slot = block({-half, -wall, 0}, {half, wall, 1.6 * radius});
+  const TopoDS_Shape bore = BRepPrimAPI_MakeCylinder(gp_Ax2({0, 0, 0.15 * radius}, {0, 0, 1}), radius, 3 * radius).Shape();
+  return text(solid(BRepAlgoAPI_Cut(BRepAlgoAPI_Cut(plate, slot).Shape(), bore).Shape()));
 }
 
 std::string claws(double radius, double degrees) {

@@ -10,6 +10,7 @@ namespace polycube::shapes {
 
 std::string box(double x, double y, double z);                                       ///< a corner at the origin
 std::string cylinder(double radius, double height);                                  ///< about +Z from the origin
+std::string divided_rim(double radius, double height, double gap);                   ///< the cylinder, a second vertex on its upper rim so far from the seam
 std::string cone(double radius, double top_radius, double height);                   ///< top_radius 0: with its tip
 std::string sphere(double radius);                                                   ///< centre at the origin
 std::string torus(double major, double minor);                                       ///< about +Z, centre at the origin
@@ -33,8 +34,10 @@ std::string weld(double radius, double width,
                  double height);  ///< ring about Z on z = 0, a right triangle turned, its legs on the plane and towards the axis
 std::string wedge_ring(double radius, double depth, double height);  ///< ring about Z whose outside is a cylinder, its section a triangle with the tip inside
 std::string forked_bar(double radius, double arm);                   ///< cylinder about Z, a thinner one leaving its middle at 45 degrees to +X, +Z
-std::string claws(double radius, double degrees);                    ///< disc on z = 0, on it four claws as wide, flush with its rim, each from an axis on
-std::string tangent_arm(double radius, double bore);                 ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
+std::string bored_web(double radius, double degrees);  ///< plate, a slot along Y from below, a bore about Z from above all but through, wider than the slot:
+                                                       ///< two segments of its floor stay, arcs of twice `degrees`
+std::string claws(double radius, double degrees);      ///< disc on z = 0, on it four claws as wide, flush with its rim, each from an axis on
+std::string tangent_arm(double radius, double bore);   ///< tube about +Z, a plate as wide as the tube leaving its middle along +X: cusps
 std::string ribbed_plate(double width,
                          double slope);              ///< plate with a rib along all of it, a right triangle that ends flush, its hypotenuse steep by slope : 1
 std::string lens(double width, double height);       ///< prism along Z over two arcs that meet at 60 degrees, `width` apart along X

@@ -71,6 +71,23 @@ TEST(Strips, LeaveRoomInTheGapBesideAClaw) {
   }
 }
 
+TEST(Strips, AreAtTheEndsOfAnArcThatBoundsASegment) {
+  const auto strips_of_bore = [](double degrees) {
+    const CadModel model = CadModel::from_brep(shapes::bored_web(8, degrees));
+    return find_strips(model, Mat3::Identity(), bar_of(model), 1);
+  };
+  const auto strips = strips_of_bore(32);
+  ASSERT_EQ(strips.size(), 4u);
+  for (const Strip& s : strips) {
+    EXPECT_NEAR(std::abs(s.generator[0][0]), std::cos(M_PI / 4), 1e-6);
+    EXPECT_NEAR(std::abs(s.generator[1][0]), std::cos(16 * M_PI / 180), 1e-6);
+    EXPECT_GT(s.generator[0].dot(s.generator[1]), 0.8);
+    EXPECT_EQ(s.label, s.generator[0][1] > 0 ? 2 : 3);
+  }
+  EXPECT_TRUE(strips_of_bore(15).empty());  // no room for three labels
+  EXPECT_TRUE(strips_of_bore(55).empty());  // it has three of its own
+}
+
 TEST(Strips, AreGivenToTheirSideUnlessTheyMayNotHaveIt) {
   const CadModel model = CadModel::from_brep(shapes::forked_bar(6, 4));
   const int bar = bar_of(model);

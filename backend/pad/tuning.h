@@ -76,6 +76,8 @@ struct PadTuning {
   double same_axis = 1e-5;
   /// Radians between neighbouring quads from which a wall does not go all round. Theory: four elements a circle are 90 degrees apart.
   double widest_gap = 100 * std::numbers::pi / 180;
+  /// Radians of a bore that symmetry leaves, at least, for rings. Theory: a quarter, but for the map's roundness.
+  double least_arc = 80 * std::numbers::pi / 180;
   /// Elements round a bore below which it gets no rings. Guess.
   double least_round = 7.5;
   /// Radii from a bore straight into the solid to the next boundary: less and they get none. Theory: rings up to 1.4 radii take half of it.
@@ -99,8 +101,8 @@ struct PadTuning {
 
   POLYCUBE_ENTRIES(hopeless, reach, same_place, spoke_price, astray_blame, surplus_price, rounds, patience, widest_end, concave, bad_edge, small_price,
                    quad_price, band_repairs, widest, sunk, flat_inside, cusp, one_cell, room_width, bad_sector, flat, straight_angle, least_gain, straight,
-                   sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price, same_axis, widest_gap, least_round, bore_room, bore_rows, ring_share,
-                   core_share, thick_tube, radial_round, own_share, spread_depth, spread_rounds)
+                   sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price, same_axis, widest_gap, least_arc, least_round, bore_room, bore_rows,
+                   ring_share, core_share, thick_tube, radial_round, own_share, spread_depth, spread_rounds)
 };
 
 inline constexpr const PadTuning& kPadTuning = tuning_in_force<PadTuning>;

@@ -295,7 +295,7 @@ class Concentric {
         Vec3 mean = Vec3::Zero();
         for (const int v : neighbours[i]) mean += mesh.points[v];
         mean /= static_cast<double>(neighbours[i].size());
-        mesh.points[nodes[i]] += across(wall, mean - mesh.points[nodes[i]]);
+        mesh.points[nodes[i]] += kPadTuning.spread_step * across(wall, mean - mesh.points[nodes[i]]);
       }
     }
   }
@@ -322,7 +322,7 @@ class Concentric {
       if (!padded_.origin.empty()) add_origin(hexes);
       quads = pieces_of(wall)[piece];
     }
-    const int parts = std::max(2, static_cast<int>(std::ceil(kPadTuning.ring_share * round / (2 * std::numbers::pi))));
+    const int parts = std::clamp(static_cast<int>(std::ceil(kPadTuning.ring_share * round / (2 * std::numbers::pi))), 2, kPadTuning.most_rings);
     return divide(wall, quads, parts, kPadTuning.spread_depth) || most > 2;
   }
 
@@ -337,6 +337,7 @@ class Concentric {
     }
     std::nth_element(cells.begin(), cells.begin() + static_cast<long>(cells.size() / 2), cells.end());
     const int core = cells[cells.size() / 2] - 2;
+    if (core > kPadTuning.most_core) return false;
     const int parts = std::max(2, static_cast<int>(std::ceil(kPadTuning.core_share * core)));
     return divide(wall, quads, parts, core / 2 + 1);
   }

@@ -295,7 +295,7 @@ class Concentric {
         Vec3 mean = Vec3::Zero();
         for (const int v : neighbours[i]) mean += mesh.points[v];
         mean /= static_cast<double>(neighbours[i].size());
-        mesh.points[nodes[i]] += kPadTuning.spread_step * across(wall, mean - mesh.points[nodes[i]]);
+        mesh.points[nodes[i]] += across(wall, mean - mesh.points[nodes[i]]);
       }
     }
   }

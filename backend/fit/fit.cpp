@@ -514,13 +514,15 @@ class Fitting {
                           .right = 1,
                           .floor = above * score_.worst,
                           .gathered = kFitTuning.gathered};
-      descent_.run(energy, wanted_lengths(), watching_ ? watching(whole_) : whole_, chains_.turns(mesh_.points, entities_), {}, kFitTuning.even_steps);
-      entities_.project(mesh_.points, &whole_.nodes);
+      // Cells that are good already stay, but for those beside others.
+      const CellRegion region = around(kFitTuning.even_good, kFitTuning.even_layers);
+      descent_.run(energy, wanted_lengths(), watching_ ? watching(region) : region, chains_.turns(mesh_.points, entities_), {}, kFitTuning.even_steps);
+      entities_.project(mesh_.points, &region.nodes);
       monitor_.check();
       const Score now = rate();
       const double gain = merit(now) - merit(score_);
       if (now.inverted > score_.inverted || now.hollow > score_.hollow || now.worst < least || gain <= 0) {
-        restore();
+        restore(region);
         if (gain <= 0 && now.worst >= score_.worst) break;
         above *= kFitTuning.higher;
         continue;

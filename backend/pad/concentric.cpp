@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hexahedron.h"
 #include "core/union_find.h"
+#include "pad/angles.h"
 #include "pad/divide.h"
 #include "pad/surface.h"
 #include "pad/tuning.h"
@@ -19,7 +20,7 @@ namespace polycube {
 
 namespace {
 
-// CAD faces on one cylinder, all round it.
+// CAD faces on one cylinder.
 struct RoundWall {
   std::vector<int> faces;  // ascending
   Vec3 axis, centre;
@@ -131,8 +132,8 @@ class Concentric {
     return sum;
   }
 
-  // Whether the quads go all round the axis.
-  bool full_turn(const RoundWall& wall, const Quads& quads) const {
+  // Radians round the axis without a quad.
+  double gap(const RoundWall& wall, const Quads& quads) const {
     const Vec3 u = wall.axis.unitOrthogonal(), v = wall.axis.cross(u);
     std::vector<double> angles;
     for (const int q : quads) {
@@ -143,7 +144,20 @@ class Concentric {
     angles.push_back(angles.front() + 2 * std::numbers::pi);
     double widest = 0;
     for (std::size_t i = 0; i + 1 < angles.size(); ++i) widest = std::max(widest, angles[i + 1] - angles[i]);
-    return widest < kPadTuning.widest_gap;
+    return widest;
+  }
+  bool full_turn(const RoundWall& wall, const Quads& quads) const { return gap(wall, quads) < kPadTuning.widest_gap; }
+
+  // Whether a piece of a bore, as symmetry leaves it, ends at edges only at which layers can end: a fillet does not.
+  bool ends_sharply(const Quads& quads) const {
+    const auto edges = boundary_edges(padded_.mesh, padded_.association.quads, topology_);
+    const auto angles = dihedral_angles(model_, padded_.mesh, padded_.association, edges);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const auto is_on = [&](int q) { return std::binary_search(quads.begin(), quads.end(), q); };
+      if (is_on(edges[e].quads[0]) == is_on(edges[e].quads[1])) continue;
+      if (angles[e] > kPadTuning.widest_end && angles[e] < kPadTuning.concave) return false;
+    }
+    return true;
   }
 
   // Mesh edges round the circle.
@@ -288,11 +302,12 @@ class Concentric {
 
   bool ring_bore(const RoundWall& wall, std::size_t piece) {
     Quads quads = pieces_of(wall)[piece];
-    if (!full_turn(wall, quads)) return false;
     const double round = elements_round(wall, quads);
+    const double turn = 2 * std::numbers::pi * (1 + 1 / round) - gap(wall, quads);
+    if (turn < kPadTuning.least_arc || (!full_turn(wall, quads) && !ends_sharply(quads))) return false;
     if (divided_.contains(quads[0]) || round < kPadTuning.least_round) return false;
     // One row of cells along the bore would be one through the rings.
-    if (static_cast<double>(quads.size()) < kPadTuning.bore_rows * round) return false;
+    if (static_cast<double>(quads.size()) < kPadTuning.bore_rows * round * turn / (2 * std::numbers::pi)) return false;
     for (const int q : quads) {
       if (column(q).length < kPadTuning.bore_room * wall.radius) return false;
     }
@@ -307,7 +322,7 @@ class Concentric {
       if (!padded_.origin.empty()) add_origin(hexes);
       quads = pieces_of(wall)[piece];
     }
-    const int parts = std::max(2, static_cast<int>(std::ceil(kPadTuning.ring_share * round / (2 * std::numbers::pi))));
+    const int parts = std::clamp(static_cast<int>(std::ceil(kPadTuning.ring_share * round / (2 * std::numbers::pi))), 2, kPadTuning.most_rings);
     return divide(wall, quads, parts, kPadTuning.spread_depth) || most > 2;
   }
 
@@ -322,6 +337,7 @@ class Concentric {
     }
     std::nth_element(cells.begin(), cells.begin() + static_cast<long>(cells.size() / 2), cells.end());
     const int core = cells[cells.size() / 2] - 2;
+    if (core > kPadTuning.most_core) return false;
     const int parts = std::max(2, static_cast<int>(std::ceil(kPadTuning.core_share * core)));
     return divide(wall, quads, parts, core / 2 + 1);
   }

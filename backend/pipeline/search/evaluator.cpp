@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.h"
@@ -136,7 +137,7 @@ class Evaluator::Work {
       std::vector<PaddedMesh> choices =
           clock_.stage("pad", [&] { return pad_choices(model_, draft.complex.mesh, association, monitor_, nullptr, {}, own_.threads_); });
       PaddedMesh& chosen = choices[promising(choices)];
-      lay_rings(chosen, draft);
+      if (auto ringed = with_rings(chosen, draft)) chosen = std::move(*ringed);
       const auto padded = static_cast<int>(count_refined(chosen.mesh, chosen.association, places_of(draft, chosen.association), kAllLevels, monitor_));
       const auto miss = [&](int n) { return std::abs(static_cast<double>(n) / options_.hexes - 1); };
       if (round > 0 && miss(padded) >= miss(cells)) break;
@@ -449,18 +450,21 @@ class Evaluator::Work {
   // Rings alone take cells from the outside of a tube, of which nothing may be asked then.
   bool may_be_radial() const { return options_.divisions.empty() && options_.sizes.empty() && options_.max_size <= 0; }
 
-  // Rings round bores and in cylinders, where they take none of the divisions that are asked for.
-  bool lay_rings(PaddedMesh& mesh, const Draft& draft) const {
-    if (options_.coarsest) return false;
+  // With rings round bores and in cylinders; none where there is nothing to ring, or they would take divisions that are asked for.
+  std::optional<PaddedMesh> with_rings(const PaddedMesh& mesh, const Draft& draft) const {
+    if (options_.coarsest) return std::nullopt;
     RingOptions options{draft.complex.mesh.hexes.size(), may_be_radial(), {}};
     for (const auto& [edge, levels] : draft.levels) options.left_edges.push_back(edge);  // local refinement rings these
     return clock_.stage("pad", [&] {
-      PaddedMesh ringed = mesh;
-      if (insert_concentric(model_, ringed, options, monitor_) == 0) return false;
+      std::optional<PaddedMesh> ringed = mesh;
       const auto unmet = [&](const PaddedMesh& m) { return unmet_divisions(m.mesh, m.association, options_.divisions).size(); };
-      if (unmet(ringed) > unmet(mesh)) return false;
-      mesh = std::move(ringed);
-      return true;
+      try {
+        if (insert_concentric(model_, *ringed, options, monitor_) == 0 || unmet(*ringed) > unmet(mesh)) ringed.reset();
+      } catch (const StageFailed& e) {
+        monitor_.log(e.stage() + ": without rings: " + e.what());
+        ringed.reset();
+      }
+      return ringed;
     });
   }
 
@@ -474,19 +478,16 @@ class Evaluator::Work {
       fits_left_ -= best.fitted;
       return best;
     };
-    const auto with_rings = [&](const PaddedMesh& mesh) {
-      PaddedMesh result = mesh;
-      ringed = lay_rings(result, draft);
-      return result;
-    };
-    std::vector<PaddedMesh> rings{with_rings(choices[0])};
-    if (!ringed) return fit_all(choices);
     std::size_t first = 0;
-    if (choices.size() > 1) {
+    std::optional<PaddedMesh> with = with_rings(choices[0], draft);
+    if (with && choices.size() > 1) {
       std::vector<PaddedMesh> moved = choices;  // by the look at what comes of each
       first = clock_.stage("fit", [&] { return most_promising(model_, candidates_of(moved), fit_options(), monitor_); });
-      if (first > 0) rings[0] = with_rings(choices[first]);
+      if (first > 0) with = with_rings(choices[first], draft);
     }
+    ringed = with.has_value();
+    if (!ringed) return fit_all(choices);
+    std::vector<PaddedMesh> rings{std::move(*with)};
     FitChoice best = fit_all(rings);
     const double enough = fit_options().target_scaled_jacobian - kSearchTuning.ring_loss;
     const bool good = best.report.inverted == 0 && (best.report.min_scaled_jacobian >= enough || at_cad_bound(model_, rings[0].mesh, rings[0].association));

@@ -128,11 +128,11 @@ TEST(Bounds, AutomaticSizeLeavesNoLongEdge) {
   };
   MeshOptions options;
   const MeshResult automatic = mesh(plate, options, Monitor());
-  // Edges slide while cells are made better: a tenth is allowed for that.
-  EXPECT_LT(longest(automatic), 1.1 * plate.diagonal() / 15);
+  // Edges slide while cells are made better, and rings round the hole push them outwards: a seventh is allowed for that.
+  EXPECT_LT(longest(automatic), 1.15 * plate.diagonal() / 15);
   options.max_size = plate.diagonal() / 25;
   const MeshResult finer = mesh(plate, options, Monitor());
-  EXPECT_LT(longest(finer), 1.1 * options.max_size);
+  EXPECT_LT(longest(finer), 1.15 * options.max_size);
   EXPECT_GT(finer.report.hexes, automatic.report.hexes);
 }
 

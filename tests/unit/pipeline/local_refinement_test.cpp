@@ -143,12 +143,11 @@ TEST(LocalRefinement, OfASessionIsThatOfItsOwnOptions) {
 }
 
 TEST(LocalRefinement, TellsWhereItSpreadsAndRefusesASeam) {
-  const CadModel model = CadModel::from_brep(shapes::cylinder(5, 10));
-  const int side = face_of(model, SurfaceKind::kCylinder);
-  // The cells at a shaft's side are a ring round all others.
-  const MeshResult result = mesh(model, parse_options({{"size", "3"}, {"refine", "Face" + std::to_string(side) + "=1"}}), Monitor());
+  // The cells at a ball's surface are a shell round all others.
+  const MeshResult result = mesh(CadModel::from_brep(shapes::sphere(5)), parse_options({{"size", "3"}, {"refine", "Face1=1"}}), Monitor());
   EXPECT_THAT(result.report.warnings, Contains(HasSubstr("only convex regions have templates")));
   EXPECT_THAT(check(result.mesh, result.association), IsEmpty());
+  const CadModel model = CadModel::from_brep(shapes::cylinder(5, 10));
   for (const int e : model.edges()) {
     if (!model.edge(e).seam) continue;
     EXPECT_THROW(mesh(model, options_of(("Edge" + std::to_string(e) + "=1").c_str()), Monitor()), InvalidInput);

@@ -51,7 +51,7 @@ TEST(CutFaces, LeavesNoTriangleOnBothSidesAndTheRestAlone) {
   for (const int f : model.faces()) bevel = model.face(f).axis.cwiseAbs().maxCoeff() < 0.9 ? f : bevel;
   ASSERT_GT(bevel, 0);
   std::vector<FaceCut> cuts(static_cast<std::size_t>(model.face_count()) + 1);
-  cuts[bevel] = {Vec3(1, -1, 0).normalized(), 0.03, false, true};
+  cuts[bevel] = {.across = Vec3(1, -1, 0).normalized(), .share = 0.03, .exact = true};
   const TetMesh mesh = cut_faces(before, cuts, Mat3::Identity(), Monitor());
   EXPECT_GT(mesh.triangles.size(), before.triangles.size());
   double low = std::numeric_limits<double>::infinity(), high = -low, narrow = 0;

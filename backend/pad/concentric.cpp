@@ -375,7 +375,9 @@ class Concentric {
     const auto quads = [&] { return pieces_of(wall)[piece]; };
     if (!full_turn(wall, quads()) || hexes_at_edges(quads()) != std::pair{2, 2}) return false;
     const std::vector<Quads> bores = pieces_of(bore);
-    if (bores.size() != 1 || !full_turn(bore, bores[0]) || elements_round(bore, bores[0]) < kPadTuning.radial_round) return false;
+    if (bores.size() != 1 || !full_turn(bore, bores[0])) return false;
+    const double round = elements_round(bore, bores[0]);
+    if (round < kPadTuning.radial_round || (options_.longest > 0 && 2 * std::numbers::pi * wall.radius > options_.longest * round)) return false;
     // Every column goes to the bore or, at the corners of the grid, to the wall again.
     int across = 0;
     for (const int q : quads()) {

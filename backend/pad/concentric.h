@@ -11,6 +11,7 @@ namespace polycube {
 struct RingOptions {
   std::size_t grid_cells = 0;     ///< the first hexes of the mesh, which are the grid's
   bool radial = true;             ///< tubes may get rings alone, from the bore to the outside, with fewer cells round the outside
+  double longest = 0;             ///< how long cells round the outside of such a tube may be; 0: as they come
   std::vector<int> left_edges{};  ///< CAD edges, ascending, of bores that get none
 };
 

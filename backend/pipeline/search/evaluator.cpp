@@ -453,7 +453,7 @@ class Evaluator::Work {
   // With rings round bores and in cylinders; none where there is nothing to ring, or they would take divisions that are asked for.
   std::optional<PaddedMesh> with_rings(const PaddedMesh& mesh, const Draft& draft) const {
     if (options_.coarsest) return std::nullopt;
-    RingOptions options{draft.complex.mesh.hexes.size(), may_be_radial(), {}};
+    RingOptions options{draft.complex.mesh.hexes.size(), may_be_radial(), kPipelineTuning.size_rounding * options_.size, {}};
     for (const auto& [edge, levels] : draft.levels) options.left_edges.push_back(edge);  // local refinement rings these
     return clock_.stage("pad", [&] {
       std::optional<PaddedMesh> ringed = mesh;

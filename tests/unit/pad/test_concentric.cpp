@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <set>
 
 #include "fit/fit.h"
@@ -108,6 +109,13 @@ TEST(PadConcentric, ATubeIsNothingButRings) {
 TEST(PadConcentric, ATubeKeepsItsCellsWhereTheyAreCountedOrItIsThick) {
   EXPECT_EQ(ringed(tube_grid(4), {.radial = false}).rings, 0);
   EXPECT_TRUE(ringed(tube_grid(4, 1.75)).padded.origin.empty());
+}
+
+TEST(PadConcentric, ATubeKeepsItsCellsWhereTheyWouldGetTooLong) {
+  const int n = 4;
+  const double outside = 2 * std::numbers::pi * 1.6 / (4 * n);
+  EXPECT_TRUE(ringed(tube_grid(n, 1.6), {.longest = 0.99 * outside}).padded.origin.empty());
+  EXPECT_FALSE(ringed(tube_grid(n, 1.6), {.longest = 1.01 * outside}).padded.origin.empty());
 }
 
 TEST(PadConcentric, LaysRingsRoundAQuarterOfABore) {

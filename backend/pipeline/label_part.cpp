@@ -1,7 +1,6 @@
 #include "pipeline/label_part.h"
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 
 #include "core/charts.h"
@@ -39,21 +38,16 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   StageClock clock(monitor);
   const Pose pose = canonical_pose(model, given.frame);
   const MeshOptions options = pose.posed(given);
-  const double size = effective_size(options, pose.model.diagonal());
-  part.tets = clock.stage("tet", [&] { return tetrahedralise(pose.model, tet_options(size, pose.model.diagonal()), monitor); });
-  pose.check_labels(part.tets, options.labels);
-  const std::vector<char> left_out = smooth_edges(pose.model, options.feature_angle * std::numbers::pi / 180, options.keep_faces);
-  clock.stage("label", [&] {
-    LabelChoice choice(pose.model, part.tets, label_options(options), pose.frames(options), pose.may_turn(options), left_out, monitor);
-    Labelled best = choice.labelled(choice.order().front());
-    part.tets = std::move(best.mesh);
-    part.labelling = std::move(best.labelling);
-    part.label_report = best.report;
-    part.features = find_features(pose.model, part.tets, part.labelling, left_out, monitor);
-  });
+  TetMeshes tets(pose.model, wanted_size(options, pose.model), clock, monitor);
+  Structures structures(pose, options, tets, clock, monitor);
+  const Labelled& best = structures.labelled();
+  part.tets = best.mesh;
+  part.labelling = best.labelling;
+  part.label_report = best.report;
+  part.features = clock.stage("label", [&] { return find_features(pose.model, part.tets, part.labelling, structures.left_out({}), monitor); });
   if (until == Until::kMap) {
     DeformOptions deform_options;
-    deform_options.merge = merge_distance(size, pose.model.diagonal());
+    deform_options.merge = merge_distance(wanted_size(options, pose.model), pose.model.diagonal());
     deform_options.threads = thread_count(options.threads);
     clock.stage("deform", [&] {
       try {

@@ -111,13 +111,7 @@ std::vector<LabelVariant> Structures::label_order() {
   if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
   const Structure& best = built({.labels = order.front()});
   if (best.failure || best.flipped > 0) prefer_facing(order);
-  if (const std::optional<LabelVariant> along = clock_.stage("label", [&] { return labellings(1).along_bend(); }); along) {
-    const auto key = [&](const LabelVariant& v) {
-      const Rank rank = rank_by_map(v);
-      return std::tuple(rank.fails, magnitude(rank.flipped), rank.distortion);
-    };
-    order.insert(order.begin() + (key(*along) < key(order.front()) ? 0 : 1), *along);
-  }
+  if (const std::optional<LabelVariant> along = along_bend()) order.insert(order.begin() + (is_better_map(*along, order.front()) ? 0 : 1), *along);
   return order;
 }
 
@@ -155,9 +149,24 @@ const Labelled& Structures::labelled(const LabelVariant& variant, double tet_siz
   return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(variant); });
 }
 
+std::optional<LabelVariant> Structures::along_bend() {
+  LabelChoice& choice = labellings(1);
+  return clock_.stage("label", [&] { return choice.along_bend(); });
+}
+
+bool Structures::is_better_map(const LabelVariant& a, const LabelVariant& b) {
+  const auto key = [&](const LabelVariant& v) {
+    const Rank rank = rank_by_map(v);
+    return std::tuple(rank.fails, magnitude(rank.flipped), rank.distortion);
+  };
+  return key(a) < key(b);
+}
+
 const Labelled& Structures::labelled() {
   LabelChoice& choice = labellings(1);
-  return clock_.stage("label", [&]() -> const Labelled& { return choice.labelled(choice.order().front()); });
+  const LabelVariant first = clock_.stage("label", [&] { return choice.order().front(); });
+  const std::optional<LabelVariant> along = along_bend();
+  return labelled(along && is_better_map(*along, first) ? *along : first);
 }
 
 DeformOptions Structures::deform_options() const {

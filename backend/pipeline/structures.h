@@ -86,7 +86,7 @@ class Structures {
   /// it turns over any, and a face stands square to its label's axis, those with fewer such faces too; and one along a bend (LabelChoice) first or second, by
   /// its map. As they come where there is no tet mesh to judge them on.
   std::vector<LabelVariant> label_order();
-  /// The first of LabelChoice's order, whatever its map. Throws StageFailed where there is no tet mesh.
+  /// The first of LabelChoice's order, whatever its map, or one along a bend with a better one. Throws StageFailed where there is no tet mesh.
   const Labelled& labelled();
   /// Invalid labels, where others are valid, take long to map and seldom have a map.
   bool doubtful(const StructurePlan& plan);
@@ -98,6 +98,8 @@ class Structures {
  private:
   LabelChoice& labellings(double tet_size);
   const Labelled& labelled(const LabelVariant& variant, double tet_size = 1);
+  std::optional<LabelVariant> along_bend();
+  bool is_better_map(const LabelVariant& a, const LabelVariant& b);
   void prefer_facing(std::vector<LabelVariant>& order);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.

@@ -29,6 +29,7 @@
 #include "pipeline/search/give_up.h"
 #include "pipeline/search/tuning.h"
 #include "pipeline/shortfalls.h"
+#include "pipeline/tuning.h"
 #include "pipeline/vertex_room.h"
 #include "quantize/quantize.h"
 

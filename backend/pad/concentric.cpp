@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -486,6 +487,28 @@ int insert_concentric(const CadModel& model, PaddedMesh& padded, const RingOptio
   if (count == 0) return 0;
   const auto faults = check(padded.mesh, padded.association);
   if (!faults.empty()) throw StageFailed("pad", "rings broke the mesh: " + faults[0]);
+  return count;
+}
+
+int count_cut_offs(const CadModel& model, const PaddedMesh& padded) {
+  const Association& a = padded.association;
+  int count = 0;
+  for (const RoundWall& wall : round_walls(model)) {
+    const auto on_wall = [&](const std::vector<int>& patch) { return patch.size() == 1 && std::binary_search(wall.faces.begin(), wall.faces.end(), patch[0]); };
+    for (std::size_t q = 0; q < a.quads.size(); ++q) {
+      if (!on_wall(a.patches[a.quad_patch[q]])) continue;
+      std::array<Vec3, 4> out;
+      for (int k = 0; k < 4; ++k) {
+        const Vec3 arm = padded.mesh.points[a.quads[q][k]] - wall.centre;
+        out[k] = (arm - arm.dot(wall.axis) * wall.axis).normalized();
+      }
+      bool cuts = false;
+      for (int k = 0; k < 4; ++k) {
+        for (int other = 0; other < k; ++other) cuts = cuts || out[k].dot(out[other]) < kPadTuning.cut_off;
+      }
+      count += cuts;
+    }
+  }
   return count;
 }
 

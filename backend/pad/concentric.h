@@ -20,4 +20,8 @@ struct RingOptions {
 /// bores and cylinders that got rings.
 int insert_concentric(const CadModel& model, PaddedMesh& padded, const RingOptions& options, const Monitor& monitor);
 
+/// Quads on cylinders that cut them off: two of their nodes are more than 120 degrees round from each other. The fit of a layer may end in such a mesh, whose
+/// cells are good and whose surface is not the part's.
+int count_cut_offs(const CadModel& model, const PaddedMesh& padded);
+
 }  // namespace polycube

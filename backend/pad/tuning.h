@@ -90,6 +90,8 @@ struct PadTuning {
   double core_share = 0.4;
   /// Radii of the bore up to which a tube gets as many cells outside as inside. Theory: up to 1.7 times as long.
   double thick_tube = 1.7;
+  /// Cosine of 120 degrees: nodes of a quad on a cylinder further apart round it cut it off. Theory: four round a circle are 90 degrees each, three 120.
+  double cut_off = -0.5;
   /// Elements round the bore of such a tube at least. Theory: as many as a circle gets.
   double radial_round = 11.5;
   /// Of the boundary that a layer lies under: the least that belongs to the wall for which it is divided. Guess.
@@ -106,7 +108,7 @@ struct PadTuning {
   POLYCUBE_ENTRIES(hopeless, reach, same_place, spoke_price, astray_blame, surplus_price, rounds, patience, widest_end, concave, bad_edge, small_price,
                    quad_price, band_repairs, widest, sunk, flat_inside, cusp, one_cell, room_width, bad_sector, flat, straight_angle, least_gain, straight,
                    sheet_reach, max_sheets, sheet_repairs, inner_weight, hex_price, same_axis, widest_gap, least_arc, least_round, bore_room, bore_rows,
-                   ring_share, core_share, thick_tube, radial_round, own_share, spread_depth, spread_rounds, most_core, most_rings)
+                   ring_share, core_share, thick_tube, cut_off, radial_round, own_share, spread_depth, spread_rounds, most_core, most_rings)
 };
 
 inline constexpr const PadTuning& kPadTuning = tuning_in_force<PadTuning>;

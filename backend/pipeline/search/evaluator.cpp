@@ -491,10 +491,12 @@ class Evaluator::Work {
     std::vector<PaddedMesh> rings{std::move(*with)};
     FitChoice best = fit_all(rings);
     const double enough = fit_options().target_scaled_jacobian - kSearchTuning.ring_loss;
-    const bool good = best.report.inverted == 0 && (best.report.min_scaled_jacobian >= enough || at_cad_bound(model_, rings[0].mesh, rings[0].association));
+    const int cut_offs = count_cut_offs(model_, rings[0]);
+    const bool good =
+        best.report.inverted == 0 && cut_offs == 0 && (best.report.min_scaled_jacobian >= enough || at_cad_bound(model_, rings[0].mesh, rings[0].association));
     if (!good && fits_left_ > 0) {
       const FitChoice other = fit_all(choices);
-      if (other.report.inverted < best.report.inverted ||
+      if (other.report.inverted < best.report.inverted || count_cut_offs(model_, choices[other.index]) < cut_offs ||
           (other.report.inverted == best.report.inverted && other.report.min_scaled_jacobian > best.report.min_scaled_jacobian + kSearchTuning.ring_loss)) {
         ringed = false;
         return other;

@@ -134,6 +134,19 @@ TEST(PadConcentric, LaysRingsRoundAQuarterOfABore) {
   for (const auto& [least, most] : rings_at(plate.padded.mesh, {0, 0}, 1, 2)) EXPECT_LT(most / least, 1.2);
 }
 
+TEST(PadConcentric, QuadsAcrossABoreAreCounted) {
+  const Grid grid = tube_grid(4);
+  const CadModel model = CadModel::from_brep(grid.brep);
+  PaddedMesh padded = ringed(grid).padded;
+  EXPECT_EQ(count_cut_offs(model, padded), 0);
+  // A node of the bore goes to the other side: the quads about it cut the bore off.
+  const auto at_bore = [&](int v) { return std::abs(padded.mesh.points[v].head<2>().norm() - 1) < 1e-6; };
+  int moved = 0;
+  while (!at_bore(moved)) ++moved;
+  padded.mesh.points[moved].head<2>() *= -1;
+  EXPECT_GT(count_cut_offs(model, padded), 0);
+}
+
 TEST(PadConcentric, LeavesABoreThatItIsToLeave) {
   const Grid plate = plate_grid(4);
   const CadModel model = CadModel::from_brep(plate.brep);

@@ -136,7 +136,8 @@ void Structures::prefer_facing(std::vector<LabelVariant>& order) {
   const Rank least = rank_by_map(more.front());
   const auto end = std::find_if(more.begin(), more.end(), [&](const LabelVariant& v) {
     const Rank rank = rank_by_map(v);
-    return rank.fails || rank.flipped > kPipelineTuning.facing_folds * least.flipped + kPipelineTuning.few_folds;
+    return rank.fails || rank.flipped > kPipelineTuning.facing_folds * least.flipped + kPipelineTuning.few_folds ||
+           rank.flipped > std::max<double>(least.flipped, kPipelineTuning.facing_share * static_cast<double>(labelled(v).mesh.tets.size()));
   });
   std::stable_sort(more.begin(), end,
                    [&](const LabelVariant& x, const LabelVariant& y) { return labelled(x).report.folded_parts < labelled(y).report.folded_parts; });

@@ -87,6 +87,9 @@ struct PipelineTuning {
   /// Times the folds of the labelling that folds least, and few_folds more: what one with fewer regions square to their axes may have. Measured: CTC 01 of NIST
   /// loses an edge with 23 folds and four such fillets, or with 25 folds and none but others divided; with 37 folds and none it loses nothing.
   int facing_folds = 2;
+  /// Of the tets: but no more than this. Measured: a labelling of CTC 01 that folds .0003 of them loses nothing, one of a block of MFCAD (1-1-1-6-10-23) that
+  /// folds .0009 leaves 19 cells inverted, and all edges are given up.
+  double facing_share = 5e-4;
   /// Cosine of the angle between the outward normals at the two sides of a wall. Theory: tapered ones up to 60 degrees count, the corner of a layer that
   /// padding put under two faces does not.
   double opposite = -0.5;
@@ -102,7 +105,7 @@ struct PipelineTuning {
   POLYCUBE_ENTRIES(slack, share_slack, widest_aspect, thinnest, smallest, most_rounds, circle_slack, small_circle, per_small_circle, fewest_round, most_turns,
                    turn_steps, closed, same_centre, conform_labellings, conform_fits, conform_across, on_plane, size_rounding, shortest_edge, zigzag,
                    neighbour_rounds, count_miss, count_power, count_reach, count_rounds, much_of_asked, much_of_all, finishing, hurry, posed_size, grid,
-                   pose_samples, frames, tie, realise_rounds, few_folds, facing_folds, opposite, mapped, few_flips, flattest)
+                   pose_samples, frames, tie, realise_rounds, few_folds, facing_folds, facing_share, opposite, mapped, few_flips, flattest)
 };
 
 inline constexpr const PipelineTuning& kPipelineTuning = tuning_in_force<PipelineTuning>;

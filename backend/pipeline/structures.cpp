@@ -260,8 +260,11 @@ bool Structures::repeats(const StructurePlan& plan) { return built(plan).repeats
 
 // `made` becomes its labels and features.
 void Structures::build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made) {
-  // Where nothing is wrong, stricter labels would be the same.
-  if (plan.labels != plain(plan.labels) && labelled(plain(plan.labels), plan.tet_size).faults == 0) return repeat(s);
+  // Where nothing is wrong, stricter labels would be the same; to those that face their axes, a region that does not is wrong.
+  if (plan.labels != plain(plan.labels)) {
+    const Labelled& usual = labelled(plain(plan.labels), plan.tet_size);
+    if (usual.faults == 0 && (!plan.labels.facing || usual.report.folded_parts == 0)) return repeat(s);
+  }
   const Labelled& chosen = labelled(plan.labels, plan.tet_size);
   const std::vector<char> out = left_out(plan);
   s.tets = chosen.mesh;

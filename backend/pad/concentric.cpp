@@ -434,9 +434,9 @@ class Concentric {
   // Divided hexes come from where the others of their sheet, or those beside them, do.
   void add_origin(std::size_t hexes) {
     std::vector<int>& origin = padded_.origin;
-    std::vector<int> front;
+    std::vector<int> front(hexes);
+    std::iota(front.begin(), front.end(), 0);
     origin.resize(padded_.mesh.hexes.size(), -1);
-    for (int h = 0; h < static_cast<int>(hexes); ++h) front.push_back(h);
     for (std::size_t i = 0; i < front.size(); ++i) {
       for (int f = 0; f < 6; ++f) {
         const int mate = topology_.mate[6 * front[i] + f];

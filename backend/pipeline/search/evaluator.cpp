@@ -475,7 +475,7 @@ class Evaluator::Work {
       const auto good = [&](std::size_t i, const FitReport& r) {
         return r.inverted == 0 && (good_cells(score_of(model_, r.min_scaled_jacobian, meshes[i])) || own_.hurry_());
       };
-      const FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates_of(meshes), fit_options(), fits_left_, good, monitor_); });
+      FitChoice best = clock_.stage("fit", [&] { return fit_best(model_, candidates_of(meshes), fit_options(), fits_left_, good, monitor_); });
       fits_left_ -= best.fitted;
       return best;
     };
@@ -495,7 +495,7 @@ class Evaluator::Work {
     const bool good =
         best.report.inverted == 0 && cut_offs == 0 && (best.report.min_scaled_jacobian >= enough || at_cad_bound(model_, rings[0].mesh, rings[0].association));
     if (!good && fits_left_ > 0) {
-      const FitChoice other = fit_all(choices);
+      FitChoice other = fit_all(choices);
       if (other.report.inverted < best.report.inverted || count_cut_offs(model_, choices[other.index]) < cut_offs ||
           (other.report.inverted == best.report.inverted && other.report.min_scaled_jacobian > best.report.min_scaled_jacobian + kSearchTuning.ring_loss)) {
         ringed = false;

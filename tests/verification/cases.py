@@ -25,7 +25,7 @@ class Quantity:
     name: str
     kind: str  # displacement, stress, frequency, temperature: how close it has to be at the finest size, see LIMITS
     error: Callable  # of a Field: its error, a share
-    coarse: float  # the error at the coarsest size is no more than that, for --quick: measured, the larger of Gmsh 4.8 and 4.13, and a quarter more
+    coarse: float  # the error at the coarsest size is no more than that, for --quick: measured with Gmsh 4.8 or 4.13, and a quarter more
 
 
 @dataclass
@@ -442,7 +442,7 @@ CASES = [
         "fine meshes",
         hole,
         (5, 3.5, 2.4),
-        [Quantity("stress beside the hole", "stress", hole_top, 0.02), Quantity("radial stress at the hole", "stress", hole_free, 0.06)],
+        [Quantity("stress beside the hole", "stress", hole_top, 0.05), Quantity("radial stress at the hole", "stress", hole_free, 0.091)],
     ),
     Case("LE1", "NAFEMS LE1, elliptic membrane", "fine meshes", le1, (120, 95, 70), [Quantity("hoop stress at D", "stress", le1_stress, 0.002)]),
     Case("LE10", "NAFEMS LE10, thick plate", "NAFEMS", le10, (300, 200, 150), [Quantity("stress at D", "stress", le10_stress, 0.057)]),
@@ -456,7 +456,7 @@ CASES = [
         heat=True,
     ),
     Case("torsion", "Round shaft, twisted", "Saint-Venant", torsion, (5, 3.3, 2.5), [Quantity("shear stress", "stress", torsion_stress, 0.0007)]),
-    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.003)]),
+    Case("ring", "Free ring", "fine meshes", ring, (8, 5, 3.5), [Quantity("lowest frequency", "frequency", lowest(RING), 0.017)]),
     Case("bar", "Free bar", "fine meshes", bar, (6, 4, 3), [Quantity("lowest frequency", "frequency", lowest(BAR), 0.0016)]),
     Case(
         "flux",

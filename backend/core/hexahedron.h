@@ -32,4 +32,15 @@ inline constexpr std::array<std::array<int, 3>, 8> kCornerNeighbours{{{1, 3, 4},
 /// Integer coordinates (u, v, w) of the corners.
 inline constexpr std::array<std::array<int, 3>, 8> kCornerCoordinates{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
 
+/// The axis (0, 1, 2) along which two corners of a hex differ, -1 if they share no edge.
+constexpr int edge_axis(int c, int d) {
+  int axis = -1;
+  for (int k = 0; k < 3; ++k) {
+    if (kCornerCoordinates[c][k] == kCornerCoordinates[d][k]) continue;
+    if (axis >= 0) return -1;
+    axis = k;
+  }
+  return axis;
+}
+
 }  // namespace polycube

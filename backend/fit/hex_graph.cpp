@@ -9,17 +9,6 @@ namespace polycube {
 
 namespace {
 
-// The axis (0, 1, 2) along which two corners of a hex differ, -1 if they share no edge.
-int edge_axis(int c, int d) {
-  int axis = -1;
-  for (int k = 0; k < 3; ++k) {
-    if (kCornerCoordinates[c][k] == kCornerCoordinates[d][k]) continue;
-    if (axis >= 0) return -1;
-    axis = k;
-  }
-  return axis;
-}
-
 struct Face {
   std::array<int, 4> nodes;  // sorted
   int side;                  // 6 * hex + face

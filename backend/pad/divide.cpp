@@ -14,14 +14,7 @@ namespace {
 // The axis of a hex along which an edge of it runs, -1 if it has no such edge.
 int axis_of(const Hex& hex, int a, int b) {
   const int c = corner_of(hex, a), d = corner_of(hex, b);
-  if (c < 0 || d < 0) return -1;
-  int axis = -1;
-  for (int k = 0; k < 3; ++k) {
-    if (kCornerCoordinates[c][k] == kCornerCoordinates[d][k]) continue;
-    if (axis >= 0) return -1;
-    axis = k;
-  }
-  return axis;
+  return c < 0 || d < 0 ? -1 : edge_axis(c, d);
 }
 
 // Of a side with the face's four nodes, an edge of it that runs along an axis of the hex.

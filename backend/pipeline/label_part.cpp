@@ -4,7 +4,6 @@
 #include <set>
 
 #include "core/charts.h"
-#include "core/parallel.h"
 #include "label/order.h"
 #include "pipeline/realise.h"
 #include "pipeline/stage_clock.h"
@@ -46,12 +45,9 @@ LabelledPart label_part(const CadModel& model, const MeshOptions& given, const M
   part.label_report = best.report;
   part.features = clock.stage("label", [&] { return find_features(pose.model, part.tets, part.labelling, structures.left_out({}), monitor); });
   if (until == Until::kMap) {
-    DeformOptions deform_options;
-    deform_options.merge = merge_distance(wanted_size(options, pose.model), pose.model.diagonal());
-    deform_options.threads = thread_count(options.threads);
     clock.stage("deform", [&] {
       try {
-        RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, deform_options, monitor);
+        RealisedMap realised = realise(pose.model, part.tets, part.labelling, part.features, structures.deform_options(), monitor);
         part.map = std::move(realised.map);
         part.flipped = realised.report.flipped;
       } catch (const StageFailed& e) {

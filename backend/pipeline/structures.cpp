@@ -111,7 +111,7 @@ std::vector<LabelVariant> Structures::label_order() {
   if (in_doubt(built({.labels = order.front()}))) sort_by_map(order);
   const Structure& best = built({.labels = order.front()});
   if (best.failure || best.flipped > 0) prefer_facing(order);
-  if (const std::optional<LabelVariant> along = along_bend()) order.insert(order.begin() + (is_better_map(*along, order.front()) ? 0 : 1), *along);
+  if (const std::optional<LabelVariant> along = along_bend()) order.insert(order.begin() + (rough_rank(*along) < rough_rank(order.front()) ? 0 : 1), *along);
   return order;
 }
 
@@ -155,19 +155,16 @@ std::optional<LabelVariant> Structures::along_bend() {
   return clock_.stage("label", [&] { return choice.along_bend(); });
 }
 
-bool Structures::is_better_map(const LabelVariant& a, const LabelVariant& b) {
-  const auto key = [&](const LabelVariant& v) {
-    const Rank rank = rank_by_map(v);
-    return std::tuple(rank.fails, magnitude(rank.flipped), rank.distortion);
-  };
-  return key(a) < key(b);
+std::tuple<bool, int, double> Structures::rough_rank(const LabelVariant& variant) {
+  const Rank rank = rank_by_map(variant);
+  return {rank.fails, magnitude(rank.flipped), rank.distortion};
 }
 
 const Labelled& Structures::labelled() {
   LabelChoice& choice = labellings(1);
   const LabelVariant first = clock_.stage("label", [&] { return choice.order().front(); });
   const std::optional<LabelVariant> along = along_bend();
-  return labelled(along && is_better_map(*along, first) ? *along : first);
+  return labelled(along && rough_rank(*along) < rough_rank(first) ? *along : first);
 }
 
 DeformOptions Structures::deform_options() const {
@@ -214,8 +211,8 @@ void Structures::sort_by_map(std::vector<LabelVariant>& order) {
   const auto repeated = [&](auto v) { return std::any_of(order.begin(), v, [&](const LabelVariant& earlier) { return same_labels(earlier, *v); }); };
   std::vector<std::pair<std::tuple<bool, int, double>, LabelVariant>> ranked;
   for (auto v = order.begin(); v != end; ++v) {
-    const Rank rank = rank_by_map(*v);
-    ranked.push_back({{rank.fails || repeated(v), magnitude(rank.flipped), rank.distortion}, *v});
+    ranked.emplace_back(rough_rank(*v), *v);
+    if (repeated(v)) std::get<bool>(ranked.back().first) = true;
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::transform(ranked.begin(), ranked.end(), order.begin(), [](const auto& r) { return r.second; });

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "blocks/blocks.h"
 #include "core/error.h"
@@ -94,12 +95,13 @@ class Structures {
   bool repeats(const StructurePlan& plan);
   /// Per CAD edge: whether the plan does without it.
   std::vector<char> left_out(const StructurePlan& plan) const;
+  /// What every map of the part is made with.
+  DeformOptions deform_options() const;
 
  private:
   LabelChoice& labellings(double tet_size);
   const Labelled& labelled(const LabelVariant& variant, double tet_size = 1);
   std::optional<LabelVariant> along_bend();
-  bool is_better_map(const LabelVariant& a, const LabelVariant& b);
   void prefer_facing(std::vector<LabelVariant>& order);
   void sort_by_map(std::vector<LabelVariant>& order);
   /// Makes it where it is not there yet; a failure of a stage is kept in it.
@@ -118,8 +120,9 @@ class Structures {
     auto operator<=>(const Rank&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   Rank rank_by_map(const LabelVariant& variant);
+  /// The same with flips by their magnitude.
+  std::tuple<bool, int, double> rough_rank(const LabelVariant& variant);
   bool same_labels(const LabelVariant& a, const LabelVariant& b);
-  DeformOptions deform_options() const;
   void build(const StructurePlan& plan, Structure& s, std::vector<std::vector<int>>& made);
 
   const Pose& pose_;
